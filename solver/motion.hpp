@@ -1,0 +1,44 @@
+#pragma once
+// The motion of the capsule: state -> velocity -> state, from a start or a checkpoint until the case's end. What is
+// computed depends on the case and the start alone: an interrupted march that goes on from its last checkpoint gives
+// the same numbers as one that was never interrupted.
+#include "case.hpp"
+#include "observables.hpp"
+#include <functional>
+#include <map>
+#include <string>
+
+namespace capsule {
+
+enum class Status { reached, steady, unbounded, failed, interrupted };
+
+// Everything needed to go on.
+struct Checkpoint {
+  double time = 0;
+  Vector position;      // empty: not started
+  double next_step = 0; // first step to try
+  long steps = 0;
+  std::vector<SeriesRow> series;
+  std::vector<Profile> profiles;
+};
+
+struct Outcome {
+  Status status = Status::failed;
+  std::string message; // why it failed, where (t, x_g), what to try; empty otherwise
+  Checkpoint last;     // all that was computed
+  // quantity ("v_g", "pressure_drop", ...) -> estimated absolute error
+  std::map<std::string, double> error_estimate;
+  double pressure_drop_peak = 0; // largest of the entry, refined between rows
+  double x_g_at_peak = 0;
+};
+
+// How the caller listens and interrupts.
+struct Control {
+  std::function<void(const SeriesRow &, long steps)> progress; // after each recorded row
+  std::function<void(const Checkpoint &)> save;                // at each point from which a march can go on
+  std::function<bool()> interrupted;                           // asked after each step
+};
+
+Outcome march(const Case &physics, const Checkpoint &from, const Control &control);
+
+} // namespace capsule
