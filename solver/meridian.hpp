@@ -1,12 +1,19 @@
 #pragma once
-// Functions along the membrane's meridian from their values at the nodes. The meridian is half of a closed smooth
-// curve with parameter zeta in [0, pi] from the upstream to the downstream pole; x and v_x are even, r and v_r odd in
-// zeta at both poles. A basis turns nodal values into values and derivatives (in zeta) anywhere:
+// Functions along the membrane's meridian from their values at the nodes. The meridian is half of a closed
+// smooth curve with parameter zeta in [0, pi] from the upstream to the downstream pole; x and v_x are even, r
+// and v_r odd in zeta at both poles. A basis turns nodal values into values and derivatives (in zeta)
+// anywhere:
 //   f(points) = even(points, 0) * f(nodes),  f''(points) = even(points, 2) * f(nodes)
-//   spectral  cos(k zeta), k < N, and sin(k zeta), 1 <= k <= N, on the N Gauss-Legendre colatitudes (no node at a
+//   spectral  cos(k zeta), k < N, and sin(k zeta), 1 <= k <= N, on the N Gauss-Legendre colatitudes (no node
+//   at a
 //             pole): exponential accuracy on smooth shapes
-//   spline    B-splines of odd degree on N + 1 equidistant nodes, poles included, with the parities as end conditions
-//             (eqs. 19-26): order degree + 1
+//   spline    B-splines of odd degree on N + 1 equidistant nodes, poles included, with the parities as end
+//   conditions
+//             (eqs. 19-26): even functions have no odd, odd functions no even derivatives below the degree at
+//             the poles; order degree + 1 for the value, one less for each derivative
+// An odd function vanishes at the poles: with splines, its nodal values there must be zero.
+// A curve with two ends, such as the pore's wall, has the plain cubic spline OpenSpline.
+// All throw std::invalid_argument when nodes are too few or not ascending, or points lie outside.
 #include "linear_algebra.hpp"
 
 namespace capsule {
@@ -14,7 +21,9 @@ namespace capsule {
 struct MeridianBasis {
   int spline_degree = 0; // 0: spectral
   Vector nodes;          // zeta, ascending
-  // Quadrature on the nodes: sum_j weights_j f(nodes_j) is the integral of an odd f over [0, pi].
+  // Quadrature on the nodes: sum_j weights_j f(nodes_j) is the integral of an odd f over [0, pi]: exact for
+  // sin(zeta) times a polynomial of degree 2N - 1 in cos(zeta) (spectral), for the interpolating spline
+  // (spline).
   Vector weights;
   Matrix even_from_nodes; // expansion coefficients from nodal values
   Matrix odd_from_nodes;
@@ -26,6 +35,23 @@ struct MeridianBasis {
 };
 
 MeridianBasis spectral_basis(int nodes);
-MeridianBasis spline_basis(int elements, int degree);
+MeridianBasis spline_basis(int elements, int degree); // degree 3, 5 or 7
+
+// The cubic spline through n nodes of any spacing, with one datum more at each end: the slope there or the
+// second derivative. Its data are the n nodal values, then the datum of the first and of the last end, so
+// that a datum may be prescribed (eqs. 27 and 28), computed from the nodal values (end_slopes) or be an
+// unknown itself.
+enum class EndDatum { slope = 1, second_derivative = 2 };
+struct OpenSpline {
+  Vector nodes;
+  Matrix coefficients_from_data; // (n + 2) x (n + 2)
+
+  // points.size() x (n + 2): the derivative (0 ... 3) at the points from the data.
+  Matrix at(const Vector &points, int derivative) const;
+};
+OpenSpline open_spline(const Vector &nodes, EndDatum first, EndDatum last);
+
+// 2 x n: slopes at the first and the last node of the cubic polynomial through the four nodes next to it.
+Matrix end_slopes(const Vector &nodes);
 
 } // namespace capsule
