@@ -16,7 +16,6 @@ enum class Status { reached, steady, unbounded, failed, interrupted };
 struct Checkpoint {
   double time = 0;
   Vector position;      // empty: not started
-  double next_step = 0; // first step to try
   long steps = 0;
   std::vector<SeriesRow> series;
   std::vector<Profile> profiles;
@@ -24,12 +23,11 @@ struct Checkpoint {
 
 struct Outcome {
   Status status = Status::failed;
+  std::string failure; // NumericsFailure::kind, empty when nothing failed
   std::string message; // why it failed, where (t, x_g), what to try; empty otherwise
   Checkpoint last;     // all that was computed
   // quantity ("v_g", "pressure_drop", ...) -> estimated absolute error
   std::map<std::string, double> error_estimate;
-  double pressure_drop_peak = 0; // largest of the entry, refined between rows
-  double x_g_at_peak = 0;
 };
 
 // How the caller listens and interrupts.
