@@ -1,6 +1,6 @@
 #pragma once
-// The membrane as an elastic body: its reference shape sampled on a quadrature along the meridian, its strain, and the
-// energy whose gradient is its load on the liquids.
+// The membrane as an elastic body: its reference shape sampled on a quadrature along the meridian, its
+// strain, and the energy whose gradient is its load on the liquids.
 #include "case.hpp"
 #include "membrane_law.hpp"
 #include "meridian.hpp"
@@ -16,27 +16,35 @@ struct Sampling {
 };
 Sampling sample(const MeridianBasis &basis, const Vector &zeta, const Vector &weights);
 
+// The undeformed shape at the points of a sampling, from the same basis as the deformed one: without motion
+// there is no strain, whatever the resolution.
+struct ReferenceShape {
+  Vector radius;                                    // R
+  Vector arc;                                       // S' = dS/dzeta
+  Vector curvature_meridional, curvature_azimuthal; // kappa^0
+};
+
 struct Membrane {
   MembraneLaw law;
   double bending_ratio = 0; // delta
   MeridianBasis basis;
-  Vector reference;   // undeformed position of the nodes, 2N, centred at x = 0
-  Sampling sampling;  // where the energy is integrated
-  // Reference shape at the sampling's points.
-  Vector reference_radius;     // R
-  Vector reference_arc;        // dS/dzeta
-  Vector reference_curvature_meridional, reference_curvature_azimuthal; // kappa^0
+  Vector reference;               // undeformed position of the nodes, 2N, centred at x = 0
+  Sampling sampling;              // where the energy is integrated: no point at a pole
+  ReferenceShape reference_shape; // at the sampling's points
+  Sampling at_nodes;              // the nodes themselves, with the basis' weights
 };
 
 // A spheroid of semi-axes A (axial) and B with (A B^2)^(1/3) = capsule.radius; node j at X = -A cos(zeta_j),
 // R = B sin(zeta_j).
-Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Vector &zeta, const Vector &weights);
+Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Vector &zeta,
+                       const Vector &weights);
 
-// Strain, tensions (eqs. 2, 4, 5), curvatures (eq. 3) and moments (eq. 6) at given points.
+// Strain, tensions (eqs. 2, 4, 5), curvatures (eq. 3) and moments (eq. 6) at given points, which may be
+// poles: there azimuthal and meridional quantities are the same.
 struct MembraneState {
   Vector x, r;
-  Vector arc;                    // ds/dzeta
-  Vector normal_x, normal_r;     // out of the capsule
+  Vector arc;                // ds/dzeta
+  Vector normal_x, normal_r; // out of the capsule
   Vector stretch_meridional, stretch_azimuthal;
   Vector tension_meridional, tension_azimuthal;
   Vector curvature_meridional, curvature_azimuthal;
@@ -54,5 +62,11 @@ double elastic_energy(const Membrane &membrane, const Vector &position);
 Vector energy_gradient(const Membrane &membrane, const Vector &position);
 // d^2 W/dposition^2, 2N x 2N, symmetric.
 Matrix energy_hessian(const Membrane &membrane, const Vector &position);
+
+// Load on the liquids at the nodes of a spectral basis, eq. 7 in its weak form: 2N axial and radial
+// components per deformed area, scaled with G/R_t. Virtual work gives the integral of q against any
+// displacement; Gauss's rule on the nodes makes its mass matrix diagonal, q_j = -(dW/dposition_j)/(2 pi
+// weights_j r_j ds/dzeta_j). Throws std::invalid_argument for a spline basis.
+Vector membrane_load(const Membrane &membrane, const Vector &position);
 
 } // namespace capsule

@@ -1,8 +1,10 @@
 #pragma once
-// The membrane's in-plane law, eqs. 4 and 5, as a strain energy per reference area w(lambda_s, lambda_phi), scaled with
-// G: T_s = (1/lambda_phi) dw/dlambda_s, and with the subscripts exchanged T_phi.
+// The membrane's in-plane law, eqs. 4 and 5, as a strain energy per reference area w(lambda_s, lambda_phi),
+// scaled with G: T_s = (1/lambda_phi) dw/dlambda_s, and with the subscripts exchanged T_phi.
 //   neo-Hookean  w = (a^2 + b^2 + 1/(a b)^2 - 3)/2
 //   Skalak       w = ((a^2 - 1)^2 + (b^2 - 1)^2 + C (a^2 b^2 - 1)^2)/4
+// w, w_a and w_b keep their relative accuracy at small strains: what vanishes in the undeformed state is
+// written as a product. Throws nothing; both stretches must be positive.
 #include "case.hpp"
 
 namespace capsule {
