@@ -1,0 +1,40 @@
+#pragma once
+// Case files: TOML -> validated runs. The keys are those of case_keys.hpp, and two more:
+//   inherit = "file.toml"             values of another file, relative to this one, that this file overrides
+//   sweep."flow.viscosity_ratio" = []  one run per value; several sweeps make every combination
+// A plain value overrides an inherited sweep of the same key and the other way round; --set overrides both.
+// Every error of all files is collected and thrown as one InputError that reads like a compiler's messages:
+//   case.toml:14:1: error: unknown key 'flow.capilary_number'
+//      14 | capilary_number = 0.09
+//         | ^
+//   did you mean 'capillary_number'?
+#include "case.hpp"
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace capsule {
+
+struct RunInput {
+  std::string name; // "viscosity_ratio=0.2,radius=0.9" with sweeps, else empty
+  Case physics;
+};
+
+struct CaseInput {
+  std::string name; // of the case directory, or of the file
+  std::filesystem::path file;
+  std::vector<RunInput> runs; // the last sweep varies fastest
+};
+
+// `path`: a case directory (that holds case.toml) or a .toml file; each override is "key=value", where the
+// value is TOML or a bare word. Throws InputError.
+CaseInput read_case(const std::filesystem::path &path, const std::vector<std::string> &overrides = {});
+
+// All keys of a run that are not chosen automatically, as a case file that gives the same run again.
+std::string resolved_toml(const Case &physics);
+
+// 16 hexadecimal digits that name what is computed and written: equal for equal resolved inputs whatever
+// their title, different for different versions of this program.
+std::string run_identity(const Case &physics);
+
+} // namespace capsule

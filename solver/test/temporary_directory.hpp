@@ -1,0 +1,41 @@
+#pragma once
+// A directory for the files of one test; removed with everything in it.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace capsule {
+
+struct TemporaryDirectory {
+  std::filesystem::path path;
+
+  TemporaryDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "capsule-test-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw std::filesystem::filesystem_error("mkdtemp", name,
+                                              std::error_code(errno, std::generic_category()));
+    path = name;
+  }
+  TemporaryDirectory(const TemporaryDirectory &) = delete;
+  TemporaryDirectory &operator=(const TemporaryDirectory &) = delete;
+  ~TemporaryDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+
+  std::filesystem::path write(const std::filesystem::path &name, const std::string &content) const {
+    std::filesystem::create_directories((path / name).parent_path());
+    std::ofstream(path / name, std::ios::binary) << content;
+    return path / name;
+  }
+};
+
+inline std::string content_of(const std::filesystem::path &file) {
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+} // namespace capsule

@@ -1,0 +1,20 @@
+#pragma once
+// Numbers and words as text.
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace capsule {
+
+// The shortest decimal text that reads back as the same double: "0.2", "15", "1e-5", "nan", "-inf".
+std::string number_text(double value);
+
+// The candidate that a mistyped word most likely meant; empty if none is near. Counts inserted, deleted,
+// replaced and swapped letters and gives up beyond a third of the word; a word that was cut short counts as
+// one letter off.
+std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
+
+// What follows the last dot of a key: "capillary_number" of "flow.capillary_number".
+std::string_view last_component(std::string_view key);
+
+} // namespace capsule
