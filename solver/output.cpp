@@ -1,0 +1,507 @@
+#include "output.hpp"
+#include "build_info.hpp"
+#include "case_file.hpp"
+#include "case_keys.hpp"
+#include "failure.hpp"
+#include "text.hpp"
+#include <algorithm>
+#include <array>
+#include <cblas.h>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fstream>
+#include <gsl/gsl_version.h>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sundials/sundials_config.h>
+#include <unistd.h>
+
+namespace capsule {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct SeriesColumn {
+  const char *name;
+  double SeriesRow::*value;
+};
+constexpr std::array series_columns{
+    SeriesColumn{"time", &SeriesRow::time},
+    SeriesColumn{"x_g", &SeriesRow::x_g},
+    SeriesColumn{"v_g", &SeriesRow::v_g},
+    SeriesColumn{"pressure_drop", &SeriesRow::pressure_drop},
+    SeriesColumn{"max_stretch", &SeriesRow::max_stretch},
+    SeriesColumn{"min_film", &SeriesRow::min_film},
+    SeriesColumn{"volume_change", &SeriesRow::volume_change},
+    SeriesColumn{"pressure_drop_reciprocal", &SeriesRow::pressure_drop_reciprocal},
+    SeriesColumn{"front_stretch", &SeriesRow::front_stretch},
+    SeriesColumn{"length", &SeriesRow::length},
+    SeriesColumn{"deformation", &SeriesRow::deformation},
+    SeriesColumn{"area_change", &SeriesRow::area_change},
+    SeriesColumn{"max_axial_residual", &SeriesRow::max_axial_residual},
+    SeriesColumn{"max_radial_velocity", &SeriesRow::max_radial_velocity},
+};
+
+struct ProfileColumn {
+  const char *name;
+  Vector Profile::*values;
+};
+constexpr std::array profile_columns{
+    ProfileColumn{"S", &Profile::S},
+    ProfileColumn{"x", &Profile::x},
+    ProfileColumn{"r", &Profile::r},
+    ProfileColumn{"stretch_meridional", &Profile::stretch_meridional},
+    ProfileColumn{"stretch_azimuthal", &Profile::stretch_azimuthal},
+    ProfileColumn{"tension_meridional", &Profile::tension_meridional},
+    ProfileColumn{"tension_azimuthal", &Profile::tension_azimuthal},
+    ProfileColumn{"moment_meridional", &Profile::moment_meridional},
+    ProfileColumn{"moment_azimuthal", &Profile::moment_azimuthal},
+    ProfileColumn{"curvature_meridional", &Profile::curvature_meridional},
+    ProfileColumn{"curvature_azimuthal", &Profile::curvature_azimuthal},
+    ProfileColumn{"velocity_x", &Profile::velocity_x},
+    ProfileColumn{"velocity_r", &Profile::velocity_r},
+};
+
+[[noreturn]] void fail(const std::string &what, const fs::path &path, int error) {
+  throw FileError(fmt::format("{} '{}': {}", what, path.string(), std::strerror(error)));
+}
+
+const char *status_text(Status status) {
+  switch (status) {
+  case Status::reached:
+    return "reached";
+  case Status::steady:
+    return "steady";
+  case Status::unbounded:
+    return "unbounded";
+  case Status::failed:
+    return "failed";
+  case Status::interrupted:
+    break;
+  }
+  return "interrupted";
+}
+
+std::string now_utc() {
+  return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::now()));
+}
+
+// JSON has no word for what is not finite.
+Json exact(double value) {
+  return std::isfinite(value) ? Json(value) : Json(number_text(value));
+}
+double exact(const Json &json) {
+  return json.is_string() ? std::stod(json.get<std::string>()) : json.get<double>();
+}
+
+Json exact(const Vector &values) {
+  Json list = Json::array();
+  for (const double value : values)
+    list.push_back(exact(value));
+  return list;
+}
+Vector exact_vector(const Json &json) {
+  Vector values(static_cast<Eigen::Index>(json.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values[i] = exact(json.at(static_cast<std::size_t>(i)));
+  return values;
+}
+
+Json finite_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+// Parsed, or nothing if there is no such file.
+std::optional<Json> read_json(const fs::path &file) {
+  errno = 0;
+  std::ifstream stream(file);
+  if (!stream) {
+    if (errno == ENOENT)
+      return std::nullopt;
+    fail("cannot read", file, errno);
+  }
+  try {
+    return Json::parse(stream);
+  } catch (const Json::exception &error) {
+    throw FileError(
+        fmt::format("cannot use '{}': {}; remove it or run with --fresh", file.string(), error.what()));
+  }
+}
+
+std::string series_csv(const std::vector<SeriesRow> &series) {
+  std::string text;
+  for (const SeriesColumn &column : series_columns)
+    text += fmt::format("{}{}", text.empty() ? "" : ",", column.name);
+  for (const SeriesRow &row : series) {
+    char separator = '\n';
+    for (const SeriesColumn &column : series_columns) {
+      text += separator + number_text(row.*column.value);
+      separator = ',';
+    }
+  }
+  return text + "\n";
+}
+
+std::string profiles_csv(const std::vector<Profile> &profiles) {
+  std::string text = "time,x_g";
+  for (const ProfileColumn &column : profile_columns)
+    text += fmt::format(",{}", column.name);
+  for (const Profile &profile : profiles)
+    for (Eigen::Index i = 0; i < profile.x.size(); ++i) {
+      text += fmt::format("\n{},{}", number_text(profile.time), number_text(profile.x_g));
+      for (const ProfileColumn &column : profile_columns)
+        text += ',' + number_text((profile.*column.values)[i]);
+    }
+  return text + "\n";
+}
+
+// One profile turned about the axis: quadrilaterals between its points and `turns` meridians.
+std::string surface_vtp(const Profile &profile) {
+  constexpr int turns = 48;
+  const Eigen::Index points = profile.x.size();
+  std::string positions, connectivity, offsets;
+  for (Eigen::Index i = 0; i < points; ++i)
+    for (int k = 0; k < turns; ++k) {
+      const double azimuth = 2 * std::numbers::pi * k / turns;
+      positions += fmt::format("{:.7g} {:.7g} {:.7g}\n", profile.x[i], profile.r[i] * std::cos(azimuth),
+                               profile.r[i] * std::sin(azimuth));
+    }
+  const auto point = [](Eigen::Index i, int k) { return i * turns + k % turns; };
+  for (Eigen::Index i = 0; i + 1 < points; ++i)
+    for (int k = 0; k < turns; ++k) {
+      connectivity +=
+          fmt::format("{} {} {} {}\n", point(i, k), point(i + 1, k), point(i + 1, k + 1), point(i, k + 1));
+      offsets += fmt::format("{}\n", 4 * (i * turns + k + 1));
+    }
+  std::string fields;
+  for (const ProfileColumn &column : profile_columns) {
+    const std::string_view name = column.name;
+    if (!name.starts_with("stretch") && !name.starts_with("tension"))
+      continue;
+    fields += fmt::format("<DataArray type=\"Float32\" Name=\"{}\" format=\"ascii\">\n", name);
+    for (const double value : profile.*column.values)
+      for (int k = 0; k < turns; ++k)
+        fields += fmt::format("{:.7g}\n", value);
+    fields += "</DataArray>\n";
+  }
+  return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
+                     "<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n<PointData>\n{}</PointData>\n"
+                     "<Points>\n<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">\n{}"
+                     "</DataArray>\n</Points>\n<Polys>\n"
+                     "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n{}</DataArray>\n"
+                     "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n{}</DataArray>\n"
+                     "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n",
+                     points * turns, std::max<Eigen::Index>(0, points - 1) * turns, fields, positions,
+                     connectivity, offsets);
+}
+
+std::string surface_name(std::size_t index) {
+  return fmt::format("membrane_{:04}.vtp", index);
+}
+
+std::string surfaces_pvd(const std::vector<Profile> &profiles) {
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+  for (std::size_t i = 0; i < profiles.size(); ++i)
+    text += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", number_text(profiles[i].time),
+                        surface_name(i));
+  return text + "</Collection>\n</VTKFile>\n";
+}
+
+Json to_json(const Value &value) {
+  return std::visit(
+      [](const auto &v) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Unsupported>)
+          return {};
+        else
+          return v;
+      },
+      value);
+}
+
+// What the end of a run says of the pore means nothing in an unbounded liquid.
+bool applies(std::string_view quantity, const Case &physics) {
+  const bool of_the_pore = quantity.find("pressure_drop") != std::string_view::npos ||
+                           quantity == "x_g_at_peak" || quantity == "min_film";
+  return !of_the_pore || physics.flow.type == FlowType::pore;
+}
+
+Json summary_json(const Case &physics, const Outcome &outcome, const Effort &effort) {
+  Json json;
+  json["status"] = status_text(outcome.status);
+  json["failure"] = outcome.failure.empty() ? Json() : Json(outcome.failure);
+  json["message"] = outcome.message.empty() ? Json() : Json(outcome.message);
+  const std::vector<SeriesRow> &series = outcome.last.series;
+  const auto put = [&](const char *name, std::optional<double> value) {
+    json[name] = value && applies(name, physics) ? finite_or_null(*value) : Json();
+  };
+  for (const SeriesColumn &column : series_columns)
+    put(column.name, series.empty() ? std::nullopt : std::optional(series.back().*column.value));
+  const auto peak = entry_peak(series);
+  put("peak_pressure_drop", peak ? std::optional(peak->pressure_drop) : std::nullopt);
+  put("x_g_at_peak", peak ? std::optional(peak->x_g) : std::nullopt);
+  json["error_estimate"] = Json::object();
+  for (const auto &[quantity, error] : outcome.error_estimate)
+    json["error_estimate"][quantity] = finite_or_null(error);
+  json["steps"] = outcome.last.steps;
+  json["cpu_seconds"] = effort.cpu_seconds;
+  json["wall_seconds"] = effort.wall_seconds;
+  json["parameters"] = Json::object();
+  for (const Key &key : keys()) {
+    const auto value = get_value(key, physics);
+    json["parameters"][key.name] = value ? to_json(*value) : Json();
+  }
+  return json;
+}
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name"))
+      return line.substr(std::min(line.size(), line.find(':') + 2));
+  return "unknown";
+}
+
+Json provenance_json(const Case &physics, const Effort &effort) {
+  Json json;
+  json["identity"] = run_identity(physics);
+  json["version"] = build_info::version;
+  json["git_commit"] = build_info::git_commit;
+  json["compiler"] = build_info::compiler;
+  json["flags"] = build_info::flags;
+  json["libraries"] = {
+      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"OpenBLAS", openblas_get_config()},
+      {"GSL", GSL_VERSION},
+      {"SUNDIALS", SUNDIALS_VERSION},
+      {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)}};
+  json["processor"] = processor_name();
+  json["started"] = effort.started;
+  json["finished"] = now_utc();
+  return json;
+}
+
+bool is_result(const fs::path &file) {
+  const std::string name = file.filename().string();
+  return name == "summary.json" || name == "series.csv" || name == "profiles.csv" ||
+         name == "resolved.toml" || name == "run.json" || name == "membrane.pvd" ||
+         (name.starts_with("membrane_") && name.ends_with(".vtp"));
+}
+
+std::vector<fs::path> results_in(const fs::path &directory) {
+  std::vector<fs::path> files;
+  std::error_code ec;
+  for (fs::directory_iterator entry(directory, ec), end; !ec && entry != end; entry.increment(ec))
+    if (is_result(entry->path()))
+      files.push_back(entry->path());
+  if (ec)
+    fail("cannot list", directory, ec.value());
+  return files;
+}
+
+void remove_file(const fs::path &file) {
+  std::error_code ec;
+  fs::remove(file, ec);
+  if (ec)
+    fail("cannot remove", file, ec.value());
+}
+
+fs::path temporary_beside(const fs::path &file) {
+  return file.parent_path() / fmt::format(".{}.{}", file.filename().string(), getpid());
+}
+
+// A hard link, or a copy where there can be none.
+void share_file(const fs::path &from, const fs::path &to) {
+  std::error_code ec;
+  const fs::path temporary = temporary_beside(to);
+  fs::create_hard_link(from, temporary, ec);
+  if (ec && !fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, ec))
+    fail("cannot write", temporary, ec.value());
+  fs::rename(temporary, to, ec);
+  if (ec)
+    fail("cannot write", to, ec.value());
+}
+
+} // namespace
+
+void make_directories(const fs::path &directory) {
+  std::error_code ec;
+  fs::create_directories(directory, ec);
+  if (ec)
+    fail("cannot create directory", directory, ec.value());
+}
+
+void write_atomically(const fs::path &file, std::string_view content) {
+  const fs::path temporary = temporary_beside(file);
+  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  int error = descriptor < 0 ? errno : 0;
+  for (std::size_t done = 0; error == 0 && done < content.size();) {
+    const ssize_t written = write(descriptor, content.data() + done, content.size() - done);
+    if (written >= 0)
+      done += static_cast<std::size_t>(written);
+    else if (errno != EINTR)
+      error = errno;
+  }
+  if (error == 0 && fsync(descriptor) != 0)
+    error = errno;
+  if (descriptor >= 0 && close(descriptor) != 0 && error == 0)
+    error = errno;
+  if (error == 0 && rename(temporary.c_str(), file.c_str()) != 0)
+    error = errno;
+  if (error != 0) {
+    unlink(temporary.c_str());
+    fail("cannot write", file, error);
+  }
+}
+
+void write_checkpoint(const fs::path &directory, const std::string &identity, const SavedRun &saved) {
+  const Checkpoint &checkpoint = saved.checkpoint;
+  Json json;
+  json["identity"] = identity;
+  json["started"] = saved.effort.started;
+  json["cpu_seconds"] = saved.effort.cpu_seconds;
+  json["wall_seconds"] = saved.effort.wall_seconds;
+  json["time"] = exact(checkpoint.time);
+  json["steps"] = checkpoint.steps;
+  json["position"] = exact(checkpoint.position);
+  json["series"] = Json::array();
+  for (const SeriesRow &row : checkpoint.series) {
+    Json values = Json::array();
+    for (const SeriesColumn &column : series_columns)
+      values.push_back(exact(row.*column.value));
+    json["series"].push_back(std::move(values));
+  }
+  json["profiles"] = Json::array();
+  for (const Profile &profile : checkpoint.profiles) {
+    Json values{{"time", exact(profile.time)}, {"x_g", exact(profile.x_g)}};
+    for (const ProfileColumn &column : profile_columns)
+      values[column.name] = exact(profile.*column.values);
+    json["profiles"].push_back(std::move(values));
+  }
+  write_atomically(directory / "checkpoint.json", json.dump() + "\n");
+}
+
+std::optional<SavedRun> read_checkpoint(const fs::path &directory, const std::string &identity) {
+  const fs::path file = directory / "checkpoint.json";
+  const auto json = read_json(file);
+  try {
+    if (!json || json->at("identity") != identity)
+      return std::nullopt;
+    SavedRun saved;
+    saved.effort = {json->at("started"), json->at("cpu_seconds"), json->at("wall_seconds")};
+    Checkpoint &checkpoint = saved.checkpoint;
+    checkpoint.time = exact(json->at("time"));
+    checkpoint.steps = json->at("steps");
+    checkpoint.position = exact_vector(json->at("position"));
+    for (const Json &values : json->at("series")) {
+      SeriesRow row;
+      for (std::size_t i = 0; i < series_columns.size(); ++i)
+        row.*series_columns.at(i).value = exact(values.at(i));
+      checkpoint.series.push_back(row);
+    }
+    for (const Json &values : json->at("profiles")) {
+      Profile profile;
+      profile.time = exact(values.at("time"));
+      profile.x_g = exact(values.at("x_g"));
+      for (const ProfileColumn &column : profile_columns)
+        profile.*column.values = exact_vector(values.at(column.name));
+      checkpoint.profiles.push_back(std::move(profile));
+    }
+    return saved;
+  } catch (const Json::exception &error) {
+    throw FileError(
+        fmt::format("cannot use '{}': {}; remove it or run with --fresh", file.string(), error.what()));
+  }
+}
+
+void write_results(const fs::path &directory, const Case &physics, const Outcome &outcome,
+                   const Effort &effort) {
+  const std::vector<Profile> &profiles = outcome.last.profiles;
+  write_atomically(directory / "series.csv", series_csv(outcome.last.series));
+  write_atomically(directory / "profiles.csv", profiles_csv(profiles));
+  for (std::size_t i = 0; i < profiles.size(); ++i)
+    write_atomically(directory / surface_name(i), surface_vtp(profiles[i]));
+  write_atomically(directory / "membrane.pvd", surfaces_pvd(profiles));
+  write_atomically(directory / "resolved.toml", resolved_toml(physics));
+  write_atomically(directory / "run.json", provenance_json(physics, effort).dump(2) + "\n");
+  write_atomically(directory / "summary.json", summary_json(physics, outcome, effort).dump(2) + "\n");
+  remove_file(directory / "checkpoint.json");
+}
+
+Summary read_summary(const fs::path &directory) {
+  const fs::path file = directory / "summary.json";
+  const auto json = read_json(file);
+  if (!json)
+    fail("cannot read", file, ENOENT);
+  try {
+    Summary summary;
+    const auto text = [&](const char *key) {
+      const Json &value = json->at(key);
+      return value.is_string() ? value.get<std::string>() : std::string();
+    };
+    summary.status = text("status");
+    summary.failure = text("failure");
+    summary.message = text("message");
+    for (const auto &[name, value] : json->items())
+      if (value.is_number())
+        summary.quantities[name] = value;
+    for (const auto &[name, value] : json->at("error_estimate").items())
+      if (value.is_number())
+        summary.error_estimate[name] = value;
+    return summary;
+  } catch (const Json::exception &error) {
+    throw FileError(fmt::format("cannot use '{}': {}; run with --fresh", file.string(), error.what()));
+  }
+}
+
+bool is_finished(const fs::path &directory, const std::string &identity) {
+  std::error_code ignored;
+  if (!fs::exists(directory / "summary.json", ignored))
+    return false;
+  const auto json = read_json(directory / "run.json");
+  return json && json->value("identity", "") == identity;
+}
+
+void remove_results(const fs::path &directory) {
+  remove_file(directory / "summary.json");
+  for (const fs::path &file : results_in(directory))
+    remove_file(file);
+}
+
+void share_results(const fs::path &from, const fs::path &to) {
+  std::error_code ignored;
+  if (fs::equivalent(from / "summary.json", to / "summary.json", ignored))
+    return;
+  make_directories(to);
+  remove_results(to);
+  for (const fs::path &file : results_in(from))
+    if (file.filename() != "summary.json")
+      share_file(file, to / file.filename());
+  share_file(from / "summary.json", to / "summary.json");
+}
+
+std::optional<Peak> entry_peak(const std::vector<SeriesRow> &series) {
+  if (series.empty())
+    return std::nullopt;
+  const auto x = [&](std::size_t i) { return series[i].x_g; };
+  const auto y = [&](std::size_t i) { return series[i].pressure_drop; };
+  const double fall = 1e-3 * std::ranges::max(series, {}, &SeriesRow::pressure_drop).pressure_drop;
+  std::size_t top = 0; // the highest row before the first fall
+  for (std::size_t i = 1; i < series.size() && y(i) >= y(top) - fall; ++i)
+    if (y(i) > y(top))
+      top = i;
+  if (top == 0 || top + 1 == series.size())
+    return Peak{y(top), x(top)};
+  const double slope_before = (y(top) - y(top - 1)) / (x(top) - x(top - 1));
+  const double slope_after = (y(top + 1) - y(top)) / (x(top + 1) - x(top));
+  const double curvature = (slope_after - slope_before) / (x(top + 1) - x(top - 1));
+  const double at = (x(top - 1) + x(top)) / 2 - slope_before / (2 * curvature);
+  return Peak{y(top) + (slope_before + curvature * (at - x(top - 1))) * (at - x(top)), at};
+}
+
+} // namespace capsule
