@@ -64,23 +64,26 @@ Strain isotropic(const Strain &strain) {
           strain.bend_meridional};
 }
 
+// How the bends and their couples, lambda_phi M_s and lambda_s M_phi, depend on each other (eq. 6).
+Eigen::Matrix2d bending_stiffness(const Membrane &membrane) {
+  const double poisson_ratio = membrane.law.poisson_ratio();
+  return membrane.bending_ratio * Eigen::Matrix2d{{1, poisson_ratio}, {poisson_ratio, 1}};
+}
+
 // Energy per reference area and its derivatives with respect to the strain.
 struct Elasticity {
   double energy;
   StrainEnergy in_plane;
-  double couple_meridional, couple_azimuthal; // with respect to the bends: lambda_phi M_s and lambda_s M_phi
+  double couple_meridional, couple_azimuthal; // with respect to the bends
 };
 Elasticity elasticity(const Membrane &membrane, const Strain &strain, double bend0_meridional,
                       double bend0_azimuthal) {
-  const double poisson_ratio = membrane.law.poisson_ratio();
-  const double k_s = strain.bend_meridional - bend0_meridional,
-               k_phi = strain.bend_azimuthal - bend0_azimuthal;
-  Elasticity e{.energy = 0,
-               .in_plane = strain_energy(membrane.law, strain.stretch_meridional, strain.stretch_azimuthal),
-               .couple_meridional = membrane.bending_ratio * (k_s + poisson_ratio * k_phi),
-               .couple_azimuthal = membrane.bending_ratio * (k_phi + poisson_ratio * k_s)};
-  e.energy = e.in_plane.w + 0.5 * (e.couple_meridional * k_s + e.couple_azimuthal * k_phi);
-  return e;
+  const StrainEnergy in_plane =
+      strain_energy(membrane.law, strain.stretch_meridional, strain.stretch_azimuthal);
+  const Eigen::Vector2d bending(strain.bend_meridional - bend0_meridional,
+                                strain.bend_azimuthal - bend0_azimuthal);
+  const Eigen::Vector2d couple = bending_stiffness(membrane) * bending;
+  return {in_plane.w + 0.5 * couple.dot(bending), in_plane, couple(0), couple(1)};
 }
 
 ReferenceShape reference_shape_at(const Sampling &at, const Vector &reference) {
@@ -161,6 +164,26 @@ LocalMatrix strain_curvature(const Point &point) {
   h(x1, r2) = h(x2, r1) = bending * square.real();
   h(r1, r2) = -bending * square.imag();
   return h.selfadjointView<Eigen::Upper>();
+}
+
+// Second derivatives of the energy of each point with respect to the local variables: a column of 25 per
+// point.
+Matrix local_hessians(const Membrane &membrane, const Vector &position) {
+  Matrix local(membrane.sampling.zeta.size(), local_size * local_size);
+  Eigen::Matrix4d stiffness = Eigen::Matrix4d::Zero();
+  stiffness.bottomRightCorner<2, 2>() = bending_stiffness(membrane);
+  at_each_point(membrane, position, [&](Eigen::Index i, const Point &point) {
+    const StrainSlopes slopes = strain_slopes(point);
+    const StrainEnergy &in_plane = point.stress.in_plane;
+    Eigen::Matrix<double, local_size, 4> strains;
+    strains << slopes.stretch_meridional, slopes.stretch_azimuthal, slopes.bend_meridional,
+        slopes.bend_azimuthal;
+    stiffness.topLeftCorner<2, 2>() << in_plane.w_aa, in_plane.w_ab, in_plane.w_ab, in_plane.w_bb;
+    const LocalMatrix h =
+        point.reference_area * (strains * stiffness * strains.transpose() + strain_curvature(point));
+    local.row(i) = h.reshaped();
+  });
+  return local;
 }
 
 } // namespace
@@ -255,50 +278,31 @@ Vector energy_gradient(const Membrane &membrane, const Vector &position) {
 
 Matrix energy_hessian(const Membrane &membrane, const Vector &position) {
   const Sampling &at = membrane.sampling;
-  const double poisson_ratio = membrane.law.poisson_ratio();
-  Eigen::Matrix4d stiffness = Eigen::Matrix4d::Zero();
-  stiffness.bottomRightCorner<2, 2>() << 1, poisson_ratio, poisson_ratio, 1;
-  stiffness.bottomRightCorner<2, 2>() *= membrane.bending_ratio;
-  Vector local[local_size][local_size];
-  for (auto &row : local) {
-    for (Vector &entry : row) {
-      entry.resize(at.zeta.size());
-    }
-  }
-  at_each_point(membrane, position, [&](Eigen::Index i, const Point &point) {
-    const StrainSlopes slopes = strain_slopes(point);
-    const StrainEnergy &in_plane = point.stress.in_plane;
-    Eigen::Matrix<double, local_size, 4> strains;
-    strains << slopes.stretch_meridional, slopes.stretch_azimuthal, slopes.bend_meridional,
-        slopes.bend_azimuthal;
-    stiffness.topLeftCorner<2, 2>() << in_plane.w_aa, in_plane.w_ab, in_plane.w_ab, in_plane.w_bb;
-    const LocalMatrix h =
-        point.reference_area * (strains * stiffness * strains.transpose() + strain_curvature(point));
-    for (int row = 0; row < local_size; ++row) {
-      for (int column = 0; column < local_size; ++column) {
-        local[row][column](i) = h(row, column);
-      }
-    }
-  });
-  // Each block is a sum of (matrix of a variable)^T times (its local row applied to the matrices of the
-  // others).
+  const Matrix local = local_hessians(membrane, position);
   const Eigen::Index n = membrane.basis.size();
   Matrix hessian(2 * n, 2 * n);
-  const auto block = [&](Local first_row, Local end_row, Local first_column, Local end_column,
-                         auto &&result) {
-    result.setZero();
-    Matrix row_applied(at.zeta.size(), n);
+  // Each block is a sum of (matrix of a variable)^T times (its local row applied to the matrices of the
+  // others). It is summed on its own: with a power of two as distance of the columns, places in the cache
+  // would be shared.
+  Matrix row_applied(at.zeta.size(), n), sum(n, n);
+  const auto block = [&](Local first_row, Local end_row, Local first_column,
+                         Local end_column) -> const Matrix & {
+    sum.setZero();
     for (int row = first_row; row < end_row; ++row) {
-      row_applied.setZero();
-      for (int column = first_column; column < end_column; ++column) {
-        row_applied += local[row][column].asDiagonal() * matrix_of(at, column);
+      for (Eigen::Index j = 0; j < n; ++j) { // column by column: the sum stays in the nearest cache
+        row_applied.col(j).setZero();
+        for (int column = first_column; column < end_column; ++column) {
+          row_applied.col(j) +=
+              local.col(row * local_size + column).cwiseProduct(matrix_of(at, column).col(j));
+        }
       }
-      result.noalias() += matrix_of(at, row).transpose() * row_applied;
+      sum.noalias() += matrix_of(at, row).transpose() * row_applied;
     }
+    return sum;
   };
-  block(x1, r0, x1, r0, hessian.topLeftCorner(n, n));
-  block(x1, r0, r0, local_size, hessian.topRightCorner(n, n));
-  block(r0, local_size, r0, local_size, hessian.bottomRightCorner(n, n));
+  hessian.topLeftCorner(n, n) = block(x1, r0, x1, r0);
+  hessian.topRightCorner(n, n) = block(x1, r0, r0, local_size);
+  hessian.bottomRightCorner(n, n) = block(r0, local_size, r0, local_size);
   hessian.bottomLeftCorner(n, n) = hessian.topRightCorner(n, n).transpose();
   return hessian;
 }

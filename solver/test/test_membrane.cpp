@@ -309,7 +309,7 @@ BOOST_AUTO_TEST_CASE(gradient_is_the_energy_s) {
           }
           const Vector smooth = random_position(membrane, seed) - membrane.reference;
           for (const auto &[direction, h] : {std::pair(smooth, 2e-2), std::pair(rough, 2e-4)}) {
-            const std::function<double(double)> energy = [&](double step) {
+            const std::function<double(double)> energy = [&, &direction = direction](double step) {
               return elastic_energy(membrane, position + step * direction);
             };
             const double scale = elastic_energy(membrane, position);
