@@ -1,0 +1,86 @@
+#pragma once
+// The flow that a given membrane shape and load make, eq. 16, with the fixed wall eliminated once.
+//   Everything is split into the flow of the empty pore (subscript e, found once) and the disturbance, which
+//   is at rest on the exit section S_P and has a uniform pressure -Delta P there:
+//     wall and exit   0 = A phi + b,   b = S_BM q/(8 pi eps) + (lambda - 1) D_BM v,  phi = (traction on S_B;
+//     P') membrane        (1+lambda)/2 v = v_e + S_MM q/(8 pi eps) + (lambda - 1) D_MM v - C A^(-1) b
+//   A is factored once; lambda = 1 leaves no system to solve in a step, any other lambda one of the
+//   membrane's size. Lengths, velocities, pressures in the paper's scales; with flow.type "extension" the
+//   liquid is unbounded, v_e = (x, -r/2), and epsilon is mu e a/G.
+#include "case.hpp"
+#include "flow_state.hpp"
+#include "layer_potential.hpp"
+#include "meridian.hpp"
+#include <optional>
+
+namespace capsule {
+
+// How fine the flow is resolved; from the accuracy asked for and the case's mesh keys.
+struct FlowResolution {
+  int membrane_panel_points = 12;
+  double membrane_panel = 0.25; // largest panel in zeta
+  int wall_panel_points = 12;
+  double wall_panel = 0.75;     // largest panel in the tube
+  double lip_panel = 0.02;      // panel at the lip
+  double near_tolerance = 1e-8; // of near panels
+};
+
+class FlowSystem {
+public:
+  FlowSystem(const Case &physics, const MeridianBasis &basis, const FlowResolution &resolution);
+
+  // Everything that depends on the shape alone.
+  struct Interaction {
+    Curve membrane;
+    Targets nodes;
+    RowMatrix single_mm, double_mm; // to the membrane's nodes (2N) from its quadrature points (2Q)
+    RowMatrix single_bm, double_bm; // to the wall's points and the exit's axis point (2 n_b + 1)
+    RowMatrix from_wall;            // C: to the membrane's nodes from phi
+    Vector empty_velocity;          // v_e at the nodes
+  };
+  Interaction interact(const Vector &position) const;
+
+  // load: nodal q, 2N.
+  FlowState flow(const Interaction &shape, const Vector &load) const;
+  // d velocity/d load for a frozen shape, 2N x 2N.
+  Matrix mobility(const Interaction &shape) const;
+  // Delta P by the reciprocal theorem, from the load and the empty pore's flow:
+  //   pi Delta P = -(1/eps) int q.v_e dA + (lambda - 1) int v.sigma_e n dA.
+  double reciprocal_pressure_drop(const Interaction &shape, const Vector &load, const Vector &velocity) const;
+
+  // The empty pore at any points inside, 2 n; and its whole pressure drop from the entrance section to the
+  // exit.
+  Vector empty_velocity(const Targets &points) const;
+  double empty_pressure_drop() const { return empty_pressure_drop_; }
+  // Traction of the empty flow on the wall's points, for tests: columns arc length, f_x, f_r.
+  Matrix empty_wall_traction() const;
+
+private:
+  bool has_wall() const { return wall_.size() > 0; }
+  Eigen::Index unknowns() const { return 2 * wall_.size() + 1; }
+  void build_wall(const Case &physics);
+  void solve_empty_pore();
+  Vector exit_field(const Targets &points) const;
+  RowMatrix wall_response(const Targets &points, bool axis_only_last) const;
+  Vector disturbance_sources(const Interaction &shape, const Vector &strength, const Vector *velocity) const;
+  Matrix membrane_operator(const Interaction &shape) const;
+
+  double capillary_number_;
+  double viscosity_ratio_;
+  FlowType type_;
+  PoreShape pore_;
+  FlowResolution resolution_;
+  MeridianBasis basis_;
+  Panels panels_; // of the membrane, in zeta
+  SelfRule self_;
+  Matrix even_[2], odd_[2]; // nodes -> quadrature points: value and derivative
+  Curve wall_;
+  Vector wall_arc_;
+  Curve exit_;           // from the wall to the axis: its normal points out of the liquid
+  Targets wall_targets_; // wall points and the exit's axis point
+  Eigen::PartialPivLU<Matrix> wall_factors_;
+  Vector empty_traction_; // phi of the empty pore
+  double empty_pressure_drop_ = 0;
+};
+
+} // namespace capsule

@@ -1,0 +1,17 @@
+#pragma once
+// From the accuracy asked for to mesh, quadrature and time tolerance. Keys of the case override what they
+// name. How the numbers were found: paper-notes/methods.md.
+#include "flow_system.hpp"
+
+namespace capsule {
+
+struct Resolution {
+  int membrane_nodes = 64; // N
+  int energy_points = 160; // where the elastic energy is sampled
+  FlowResolution flow;
+  double time_tolerance = 1e-6; // absolute error of the nodes' positions in a step
+};
+
+Resolution choose_resolution(const Case &physics);
+
+} // namespace capsule
