@@ -1,7 +1,7 @@
 #pragma once
-// A case: the physics and numerics of one run, complete and validated. All lengths are scaled with R_t, velocities
-// with Q/(pi R_t^2), times with pi R_t^3/Q, pressures with mu Q/(pi R_t^3), tensions with G, bending moments with
-// G R_t. The keys of a case file are the names below, joined by dots: "pore.exit_x".
+// A case: the physics and numerics of one run, complete and validated. All lengths are scaled with R_t,
+// velocities with Q/(pi R_t^2), times with pi R_t^3/Q, pressures with mu Q/(pi R_t^3), tensions with G,
+// bending moments with G R_t. The keys of a case file are the names below, joined by dots: "pore.exit_x".
 #include <optional>
 #include <string>
 #include <vector>

@@ -15,8 +15,8 @@ struct FileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The computation cannot go on (exit code 3). `kind` is one word for scripts: "touching", "folded", "wrinkled",
-// "unresolved", "volume", "step", "not-a-number", "self-contact"; `advice` says what to try.
+// The computation cannot go on (exit code 3). `kind` is one word for scripts: "touching", "folded",
+// "wrinkled", "unresolved", "volume", "step", "not-a-number", "self-contact"; `advice` says what to try.
 struct NumericsFailure : std::runtime_error {
   std::string kind;
   std::string advice;

@@ -1,7 +1,7 @@
 #pragma once
 // Names for the dense arrays of the whole solver.
-//   A "position" or "velocity" of the membrane is one Vector of 2N numbers: the N axial components at the nodes
-//   of the meridian, then the N radial ones.
+//   A "position" or "velocity" of the membrane is one Vector of 2N numbers: the N axial components at the
+//   nodes of the meridian, then the N radial ones.
 #include <Eigen/Dense>
 
 namespace capsule {

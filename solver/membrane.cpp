@@ -307,7 +307,7 @@ Matrix energy_hessian(const Membrane &membrane, const Vector &position) {
   return hessian;
 }
 
-Vector membrane_load(const Membrane &membrane, const Vector &position) {
+Vector nodal_area(const Membrane &membrane, const Vector &position) {
   if (membrane.basis.spline_degree != 0) {
     throw std::invalid_argument("nodal loads need a spectral basis");
   }
@@ -315,8 +315,12 @@ Vector membrane_load(const Membrane &membrane, const Vector &position) {
   const Vector slope_x = membrane.at_nodes.even[1] * position.head(n);
   const Vector slope_r = membrane.at_nodes.odd[1] * position.tail(n);
   const Vector arc = (slope_x.array().square() + slope_r.array().square()).sqrt();
-  const Vector area = two_pi * membrane.basis.weights.array() * position.tail(n).array() * arc.array();
-  return -energy_gradient(membrane, position).array() / area.replicate(2, 1).array();
+  return two_pi * membrane.basis.weights.array() * position.tail(n).array() * arc.array();
+}
+
+Vector membrane_load(const Membrane &membrane, const Vector &position) {
+  return -energy_gradient(membrane, position).array() /
+         nodal_area(membrane, position).replicate(2, 1).array();
 }
 
 } // namespace capsule

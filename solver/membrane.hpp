@@ -68,6 +68,8 @@ Matrix energy_hessian(const Membrane &membrane, const Vector &position);
 // components per deformed area, scaled with G/R_t. Virtual work gives the integral of q against any
 // displacement; Gauss's rule on the nodes makes its mass matrix diagonal, q_j = -(dW/dposition_j)/(2 pi
 // weights_j r_j ds/dzeta_j). Throws std::invalid_argument for a spline basis.
+// The masses are nodal_area: the area that each node stands for.
+Vector nodal_area(const Membrane &membrane, const Vector &position);
 Vector membrane_load(const Membrane &membrane, const Vector &position);
 
 } // namespace capsule

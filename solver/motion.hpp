@@ -1,7 +1,7 @@
 #pragma once
-// The motion of the capsule: state -> velocity -> state, from a start or a checkpoint until the case's end. What is
-// computed depends on the case and the start alone: an interrupted march that goes on from its last checkpoint gives
-// the same numbers as one that was never interrupted.
+// The motion of the capsule: state -> velocity -> state, from a start or a checkpoint until the case's end.
+// What is computed depends on the case and the start alone: an interrupted march that goes on from its last
+// checkpoint gives the same numbers as one that was never interrupted.
 #include "case.hpp"
 #include "observables.hpp"
 #include <functional>
@@ -15,7 +15,7 @@ enum class Status { reached, steady, unbounded, failed, interrupted };
 // Everything needed to go on.
 struct Checkpoint {
   double time = 0;
-  Vector position;      // empty: not started
+  Vector position; // empty: not started
   long steps = 0;
   std::vector<SeriesRow> series;
   std::vector<Profile> profiles;

@@ -1,7 +1,8 @@
 #pragma once
 // What a run reports: one row of numbers at a time, and profiles along the meridian.
-#include "linear_algebra.hpp"
-#include <vector>
+#include "membrane.hpp"
+#include "pore.hpp"
+#include <optional>
 
 namespace capsule {
 
@@ -18,8 +19,8 @@ struct SeriesRow {
   double deformation = 0;              // (length - diameter)/(length + diameter)
   double volume_change = 0;            // (V - V_ini)/V_ini
   double area_change = 0;
-  double max_axial_residual = 0;       // max |v_x - v_g|
-  double max_radial_velocity = 0;      // max |v_r|
+  double max_axial_residual = 0;  // max |v_x - v_g|
+  double max_radial_velocity = 0; // max |v_r|
 };
 
 struct Profile {
@@ -32,6 +33,34 @@ struct Profile {
   Vector moment_meridional, moment_azimuthal;
   Vector curvature_meridional, curvature_azimuthal;
   Vector velocity_x, velocity_r;
+};
+
+// Measures the shapes that one membrane takes in one pore. Integrals are taken on Gauss panels, extremes on
+// points four times as dense as the nodes with a parabola through the best three.
+class Gauge {
+public:
+  Gauge(const Case &physics, const Membrane &membrane);
+
+  double volume(const Vector &position) const;
+  double centre(const Vector &position) const; // x_g
+  // Smallest distance to the wall, negative beyond it; infinite without a wall.
+  double film(const Vector &position) const;
+  // All but the pressure drops.
+  SeriesRow row(double time, const Vector &position, const Vector &velocity) const;
+  Profile profile(double time, const Vector &position, const Vector &velocity) const;
+
+private:
+  struct Integrals {
+    double volume, first_moment, area;
+  };
+  Integrals integrals(const Vector &position) const;
+
+  Membrane membrane_;
+  std::optional<Pore> pore_;
+  Sampling panels_;
+  Sampling fine_;        // from pole to pole
+  Vector arc_from_pole_; // S at the points of fine_
+  Integrals initial_{};
 };
 
 } // namespace capsule

@@ -1,0 +1,77 @@
+#include "dynamics.hpp"
+#include "failure.hpp"
+#include "flow_system.hpp"
+#include "pore.hpp"
+#include "resolution.hpp"
+#include <memory>
+#include <optional>
+
+namespace capsule {
+namespace {
+
+Vector start_position(const Membrane &membrane, double start_x) {
+  Vector start = membrane.reference;
+  start.head(membrane.basis.size()).array() += start_x;
+  return start;
+}
+
+// Energy gradient -> nodal load: Gauss quadrature makes the mass matrix diagonal (membrane_load in
+// membrane.hpp); the derivative keeps the area elements frozen like the mobility.
+Matrix load_jacobian(const Membrane &membrane, const Vector &position) {
+  const Vector masses = nodal_area(membrane, position).replicate(2, 1);
+  return (-masses.cwiseInverse()).asDiagonal() * energy_hessian(membrane, position);
+}
+
+// What no flow can be computed for: the integrator then tries a shorter step, and the march fails if none
+// helps.
+void require_capsule(const std::optional<Pore> &pore, const Vector &position) {
+  const Eigen::Index n = position.size() / 2;
+  if (!position.allFinite())
+    throw NumericsFailure("not-a-number", "the membrane's position is not a number",
+                          "try a finer mesh.membrane");
+  if (position.tail(n).minCoeff() < 0)
+    throw NumericsFailure("folded", "the membrane crosses the axis", "try a larger membrane.bending_ratio");
+  if (!pore)
+    return;
+  for (Eigen::Index k = 0; k < n; ++k)
+    if (wall_distance(*pore, position[k], position[n + k]) <= 0)
+      throw NumericsFailure("touching", "the membrane touches the wall",
+                            "try a smaller accuracy or a finer mesh");
+}
+
+Dynamics standard_dynamics(const Case &physics) {
+  const Resolution resolution = choose_resolution(physics);
+  const MeridianBasis basis = spectral_basis(resolution.membrane_nodes);
+  const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
+  Dynamics dynamics;
+  dynamics.membrane = make_membrane(physics, basis, energy_rule.nodes, energy_rule.weights);
+  dynamics.start = start_position(dynamics.membrane, physics.capsule.start_x);
+  const auto system = std::make_shared<const FlowSystem>(physics, basis, resolution.flow);
+  const auto membrane = std::make_shared<const Membrane>(dynamics.membrane);
+  std::optional<Pore> pore;
+  if (physics.pore.shape != PoreShape::none)
+    pore = make_pore(physics);
+  dynamics.flow = [system, membrane, pore](const Vector &position) {
+    require_capsule(pore, position);
+    return system->flow(system->interact(position), membrane_load(*membrane, position));
+  };
+  dynamics.report = [system, membrane](const Vector &position) {
+    const FlowSystem::Interaction shape = system->interact(position);
+    const Vector load = membrane_load(*membrane, position);
+    FlowState state = system->flow(shape, load);
+    state.pressure_drop_reciprocal = system->reciprocal_pressure_drop(shape, load, state.velocity);
+    return state;
+  };
+  dynamics.jacobian = [system, membrane](const Vector &position) -> Matrix {
+    return system->mobility(system->interact(position)) * load_jacobian(*membrane, position);
+  };
+  return dynamics;
+}
+
+} // namespace
+
+Dynamics make_dynamics(const Case &physics) {
+  return standard_dynamics(physics);
+}
+
+} // namespace capsule

@@ -1,0 +1,25 @@
+#pragma once
+// The equations of motion of a case, whichever numerics it asks for: position of the membrane's nodes ->
+// velocity.
+#include "case.hpp"
+#include "flow_state.hpp"
+#include "membrane.hpp"
+#include <functional>
+
+namespace capsule {
+
+struct Dynamics {
+  Membrane membrane;
+  Vector start; // position of the nodes at t = 0
+  // Throw NumericsFailure when the shape is no capsule in the pore any more.
+  std::function<FlowState(const Vector &position)> flow;
+  // The same with the second route to the pressure drop.
+  std::function<FlowState(const Vector &position)> report;
+  // d velocity/d position with frozen hydrodynamic mobility and the exact derivative of the membrane's load.
+  std::function<Matrix(const Vector &position)> jacobian;
+};
+
+// Builds what stays fixed: reference shape, matrices, the wall's factors and the empty pore's flow.
+Dynamics make_dynamics(const Case &physics);
+
+} // namespace capsule

@@ -1,0 +1,253 @@
+#include "motion.hpp"
+#include "dynamics.hpp"
+#include "failure.hpp"
+#include "resolution.hpp"
+#include "time_step.hpp"
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace capsule {
+namespace {
+
+constexpr double row_spacing = 0.05;  // of x_g
+constexpr int rows_in_time = 200;     // where time tells the progress
+constexpr double runaway_stretch = 4; // a membrane stretched beyond is reported as unbounded
+constexpr double volume_drift_bound = 1e-2;
+
+// A value of x_g or of time at which a row is due.
+struct Station {
+  double value;
+  bool profile;
+  bool end;
+};
+
+std::vector<Station> stations(double from, double spacing, std::optional<double> end,
+                              const std::vector<double> &profiles) {
+  std::vector<Station> list;
+  for (const double value : profiles)
+    if (value > from && (!end || value <= *end))
+      list.push_back({value, true, false});
+  if (end) {
+    const auto first = static_cast<long>(std::floor(from / spacing + 1e-9)) + 1;
+    for (long k = first; static_cast<double>(k) * spacing < *end; ++k)
+      list.push_back({static_cast<double>(k) * spacing, false, false});
+    list.push_back({*end, true, true});
+  }
+  std::sort(list.begin(), list.end(), [](const Station &a, const Station &b) { return a.value < b.value; });
+  std::vector<Station> merged;
+  for (const Station &station : list) {
+    if (merged.empty() || station.value - merged.back().value > 1e-9)
+      merged.push_back(station);
+    else
+      merged.back() = {merged.back().value, merged.back().profile || station.profile,
+                       merged.back().end || station.end};
+  }
+  return merged;
+}
+
+// Explicit Euler, the scheme of the paper, with the straight line between two steps as its interpolant.
+class EulerIntegrator {
+public:
+  EulerIntegrator(const Dynamics &dynamics, double time, Vector state, double step)
+      : dynamics_(&dynamics), time_(time), previous_(time), step_(step), state_(std::move(state)),
+        before_(state_) {}
+  void step() {
+    before_ = state_;
+    previous_ = time_;
+    state_ += step_ * dynamics_->flow(state_).velocity;
+    time_ += step_;
+  }
+  double time() const { return time_; }
+  double previous_time() const { return previous_; }
+  Vector state_at(double time) const { return before_ + (time - previous_) / step_ * (state_ - before_); }
+
+private:
+  const Dynamics *dynamics_;
+  double time_, previous_, step_;
+  Vector state_, before_;
+};
+
+// The march of one case: integrates, records what is due, and stops.
+class March {
+public:
+  March(const Case &physics, const Checkpoint &from, const Control &control)
+      : physics_(physics), control_(control), dynamics_(make_dynamics(physics)),
+        gauge_(physics, dynamics_.membrane), record_(from) {
+    if (record_.position.size() == 0) {
+      record_.position = dynamics_.start;
+      record(0, dynamics_.start, true);
+    }
+    const bool by_position = physics.until.x_g.has_value();
+    by_x_g_ = stations(gauge_.centre(record_.position), row_spacing, physics.until.x_g,
+                       physics.output.profiles_at_x_g);
+    const double end = physics.until.time.value_or(std::numeric_limits<double>::infinity());
+    by_time_ = stations(record_.time, by_position ? end : end / rows_in_time, physics.until.time,
+                        physics.output.profiles_at_time);
+  }
+
+  Outcome run() {
+    Outcome outcome;
+    try {
+      outcome.status = physics_.time.scheme == Scheme::euler ? run_euler() : run_bdf();
+    } catch (const NumericsFailure &failure) {
+      outcome.status = failure.kind == "unbounded" ? Status::unbounded : Status::failed;
+      const SeriesRow &last = record_.series.back();
+      outcome.failure = failure.kind;
+      outcome.message = fmt::format("{} (after t = {:.6g}, x_g = {:.6g}); {}", failure.what(), last.time,
+                                    last.x_g, failure.advice);
+    }
+    outcome.last = record_;
+    return outcome;
+  }
+
+private:
+  Status run_euler() {
+    for (;;) {
+      EulerIntegrator integrator(dynamics_, record_.time, record_.position, physics_.time.step);
+      if (const auto status = run_leg(integrator, 2000))
+        return *status;
+    }
+  }
+
+  Status run_bdf() {
+    const double tolerance = choose_resolution(physics_).time_tolerance;
+    std::optional<NumericsFailure> cause; // why the last shape tried was none
+    const Equations equations{[&](const Vector &position, Vector &rate) {
+                                try {
+                                  rate = dynamics_.flow(position).velocity;
+                                  return true;
+                                } catch (const NumericsFailure &failure) {
+                                  cause.emplace(failure);
+                                  return false;
+                                }
+                              },
+                              [&](const Vector &position, Matrix &jacobian) {
+                                jacobian = dynamics_.jacobian(position);
+                                return jacobian.allFinite();
+                              }};
+    for (;;) {
+      cause.reset();
+      try {
+        BdfIntegrator integrator(equations, record_.time, record_.position, tolerance);
+        if (const auto status = run_leg(integrator, 250))
+          return *status;
+      } catch (const NumericsFailure &failure) {
+        if (failure.kind == "step" && cause)
+          throw NumericsFailure(*cause);
+        throw;
+      }
+    }
+  }
+
+  // Steps from one checkpoint to the next: the integrator starts afresh from each, so that an interrupted
+  // march goes on just as this one does. Empty: not at the end yet.
+  template <class Integrator>
+  std::optional<Status> run_leg(Integrator &integrator, int steps) {
+    for (int k = 0; k < steps; ++k) {
+      if (control_.interrupted && control_.interrupted())
+        return Status::interrupted;
+      integrator.step();
+      ++record_.steps;
+      if (record_due(integrator))
+        return Status::reached;
+    }
+    record_.time = integrator.time();
+    record_.position = integrator.state_at(integrator.time());
+    if (control_.save)
+      control_.save(record_);
+    return std::nullopt;
+  }
+
+  // Records the rows that fall into the last step, in order of time; true at the end.
+  template <class Integrator>
+  bool record_due(const Integrator &integrator) {
+    const double now = integrator.time();
+    double since = integrator.previous_time();
+    for (;;) {
+      double due = std::numeric_limits<double>::infinity();
+      const Station *station = nullptr;
+      bool in_time = false;
+      if (next_time_ < by_time_.size() && by_time_[next_time_].value <= now) {
+        station = &by_time_[next_time_];
+        due = station->value;
+        in_time = true;
+      }
+      if (next_x_g_ < by_x_g_.size()) {
+        const auto ahead = [&](double time) {
+          return gauge_.centre(integrator.state_at(time)) - by_x_g_[next_x_g_].value;
+        };
+        if (ahead(now) >= 0) {
+          const double crossing = crossing_time(ahead, since, now);
+          if (crossing < due) {
+            station = &by_x_g_[next_x_g_];
+            due = crossing;
+            in_time = false;
+          }
+        }
+      }
+      if (station == nullptr)
+        return false;
+      record(due, integrator.state_at(due), station->profile);
+      ++(in_time ? next_time_ : next_x_g_);
+      since = due;
+      if (station->end) {
+        record_.time = due;
+        record_.position = integrator.state_at(due);
+        return true;
+      }
+    }
+  }
+
+  template <class Function>
+  static double crossing_time(const Function &ahead, double since, double now) {
+    const double at_start = ahead(since);
+    if (at_start >= 0)
+      return since;
+    const double at_end = ahead(now);
+    if (at_end == 0)
+      return now;
+    std::uintmax_t iterations = 50;
+    const auto bracket = boost::math::tools::toms748_solve(
+        ahead, since, now, at_start, at_end, boost::math::tools::eps_tolerance<double>(48), iterations);
+    return (bracket.first + bracket.second) / 2;
+  }
+
+  void record(double time, const Vector &position, bool profile) {
+    const FlowState state = dynamics_.report(position);
+    SeriesRow row = gauge_.row(time, position, state.velocity);
+    row.pressure_drop = state.pressure_drop;
+    row.pressure_drop_reciprocal = state.pressure_drop_reciprocal;
+    record_.series.push_back(row);
+    if (profile)
+      record_.profiles.push_back(gauge_.profile(time, position, state.velocity));
+    if (control_.progress)
+      control_.progress(row, record_.steps);
+    if (std::abs(row.volume_change) > volume_drift_bound)
+      throw NumericsFailure("volume",
+                            fmt::format("the volume has drifted by {:.2g} %", 100 * row.volume_change),
+                            "try a smaller accuracy (or time.tolerance) or a finer mesh.membrane");
+    if (row.max_stretch > runaway_stretch)
+      throw NumericsFailure(
+          "unbounded", fmt::format("the membrane is stretched beyond {} and still growing", runaway_stretch),
+          "no steady state need exist: lower flow.capillary_number");
+  }
+
+  const Case &physics_;
+  const Control &control_;
+  Dynamics dynamics_;
+  Gauge gauge_;
+  Checkpoint record_;
+  std::vector<Station> by_x_g_, by_time_;
+  std::size_t next_x_g_ = 0, next_time_ = 0;
+};
+
+} // namespace
+
+Outcome march(const Case &physics, const Checkpoint &from, const Control &control) {
+  return March(physics, from, control).run();
+}
+
+} // namespace capsule

@@ -1,0 +1,148 @@
+#include "observables.hpp"
+#include "quadrature.hpp"
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace capsule {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// The poles are approached to this distance in zeta: ratios such as r/R are 0/0 at a pole, and even fields
+// differ from their limit by its square.
+constexpr double pole_gap = 1e-5;
+
+Sampling integration_points(const MeridianBasis &basis) {
+  const Eigen::Index nodes = basis.size();
+  const bool spline = basis.spline_degree > 0;
+  const Panels panels =
+      make_panels(Vector::LinSpaced(spline ? nodes : nodes / 6 + 2, 0, pi), spline ? 4 : 12);
+  return sample(basis, panels.points, panels.weights);
+}
+
+Sampling pole_to_pole(const MeridianBasis &basis) {
+  const Eigen::Index n = 4 * basis.size() + 1;
+  return sample(basis, Vector::LinSpaced(n, pole_gap, pi - pole_gap), Vector::Zero(n));
+}
+
+// Largest value of the parabola through the largest sample and its neighbours.
+double refined_maximum(const Vector &f) {
+  Eigen::Index k = 0;
+  const double best = f.maxCoeff(&k);
+  if (k == 0 || k == f.size() - 1)
+    return best;
+  const double slope = (f[k + 1] - f[k - 1]) / 2;
+  const double bend = f[k + 1] - 2 * f[k] + f[k - 1];
+  return bend < 0 ? best - slope * slope / (2 * bend) : best;
+}
+
+} // namespace
+
+Gauge::Gauge(const Case &physics, const Membrane &membrane)
+    : membrane_(membrane), panels_(integration_points(membrane.basis)), fine_(pole_to_pole(membrane.basis)) {
+  if (physics.pore.shape != PoreShape::none)
+    pore_ = make_pore(physics);
+  initial_ = integrals(membrane_.reference);
+
+  // S by Gauss's rule between neighbouring points.
+  const GaussRule rule = gauss_legendre(6);
+  const Vector x = membrane_.reference.head(membrane_.basis.size());
+  const Vector r = membrane_.reference.tail(membrane_.basis.size());
+  arc_from_pole_ = Vector::Zero(fine_.zeta.size());
+  const double step = fine_.zeta[1] - fine_.zeta[0];
+  Vector points(rule.size() * (fine_.zeta.size() - 1));
+  for (Eigen::Index k = 0; k + 1 < fine_.zeta.size(); ++k)
+    points.segment(k * rule.size(), rule.size()) = fine_.zeta[k] + step / 2 * (1 + rule.nodes.array());
+  const Vector speed = ((membrane_.basis.even(points, 1) * x).array().square() +
+                        (membrane_.basis.odd(points, 1) * r).array().square())
+                           .sqrt();
+  for (Eigen::Index k = 0; k + 1 < fine_.zeta.size(); ++k)
+    arc_from_pole_[k + 1] =
+        arc_from_pole_[k] + step / 2 * rule.weights.dot(speed.segment(k * rule.size(), rule.size()));
+}
+
+Gauge::Integrals Gauge::integrals(const Vector &position) const {
+  const Eigen::Index n = membrane_.basis.size();
+  const Eigen::ArrayXd x = panels_.even[0] * position.head(n);
+  const Eigen::ArrayXd r = panels_.odd[0] * position.tail(n);
+  const Eigen::ArrayXd x_zeta = panels_.even[1] * position.head(n);
+  const Eigen::ArrayXd r_zeta = panels_.odd[1] * position.tail(n);
+  const Eigen::ArrayXd slice = pi * panels_.weights.array() * r.square() * x_zeta;
+  return {slice.sum(), (slice * x).sum(),
+          2 * pi * (panels_.weights.array() * r * (x_zeta.square() + r_zeta.square()).sqrt()).sum()};
+}
+
+double Gauge::volume(const Vector &position) const {
+  return integrals(position).volume;
+}
+
+double Gauge::centre(const Vector &position) const {
+  const Integrals now = integrals(position);
+  return now.first_moment / now.volume;
+}
+
+double Gauge::film(const Vector &position) const {
+  if (!pore_)
+    return std::numeric_limits<double>::infinity();
+  const Eigen::Index n = membrane_.basis.size();
+  const Vector x = fine_.even[0] * position.head(n);
+  const Vector r = fine_.odd[0] * position.tail(n);
+  Vector distance(x.size());
+  for (Eigen::Index k = 0; k < x.size(); ++k)
+    distance[k] = wall_distance(*pore_, x[k], r[k]);
+  return -refined_maximum(-distance);
+}
+
+SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity) const {
+  const Eigen::Index n = membrane_.basis.size();
+  SeriesRow row;
+  row.time = time;
+  const Integrals now = integrals(position);
+  row.x_g = now.first_moment / now.volume;
+  row.volume_change = (now.volume - initial_.volume) / initial_.volume;
+  row.area_change = (now.area - initial_.area) / initial_.area;
+
+  // v_g = (1/V) int (x - x_g) v.n dA, with n dA = 2 pi r (-r', x') dzeta
+  const Eigen::ArrayXd x = panels_.even[0] * position.head(n);
+  const Eigen::ArrayXd r = panels_.odd[0] * position.tail(n);
+  const Eigen::ArrayXd flux =
+      (panels_.odd[0] * velocity.tail(n)).array() * (panels_.even[1] * position.head(n)).array() -
+      (panels_.even[0] * velocity.head(n)).array() * (panels_.odd[1] * position.tail(n)).array();
+  row.v_g = 2 * pi * (panels_.weights.array() * (x - row.x_g) * r * flux).sum() / now.volume;
+  row.max_axial_residual = (velocity.head(n).array() - row.v_g).abs().maxCoeff();
+  row.max_radial_velocity = velocity.tail(n).cwiseAbs().maxCoeff();
+
+  const MembraneState state = membrane_state(membrane_, fine_, position);
+  row.max_stretch = refined_maximum(state.stretch_meridional);
+  row.front_stretch = state.stretch_meridional[state.stretch_meridional.size() - 1];
+  row.min_film = film(position);
+  row.length = refined_maximum(state.x) + refined_maximum(-state.x);
+  const double diameter = 2 * refined_maximum(state.r);
+  row.deformation = (row.length - diameter) / (row.length + diameter);
+  return row;
+}
+
+Profile Gauge::profile(double time, const Vector &position, const Vector &velocity) const {
+  const Eigen::Index n = membrane_.basis.size();
+  const MembraneState state = membrane_state(membrane_, fine_, position);
+  Profile profile;
+  profile.time = time;
+  profile.x_g = centre(position);
+  profile.S = arc_from_pole_;
+  profile.x = state.x;
+  profile.r = state.r;
+  profile.stretch_meridional = state.stretch_meridional;
+  profile.stretch_azimuthal = state.stretch_azimuthal;
+  profile.tension_meridional = state.tension_meridional;
+  profile.tension_azimuthal = state.tension_azimuthal;
+  profile.moment_meridional = state.moment_meridional;
+  profile.moment_azimuthal = state.moment_azimuthal;
+  profile.curvature_meridional = state.curvature_meridional;
+  profile.curvature_azimuthal = state.curvature_azimuthal;
+  profile.velocity_x = fine_.even[0] * velocity.head(n);
+  profile.velocity_r = fine_.odd[0] * velocity.tail(n);
+  return profile;
+}
+
+} // namespace capsule

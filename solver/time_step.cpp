@@ -1,0 +1,119 @@
+#include "time_step.hpp"
+#include "failure.hpp"
+#include <cvode/cvode.h>
+#include <fmt/format.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <utility>
+
+namespace capsule {
+namespace {
+
+Eigen::Map<Vector> view(N_Vector v) {
+  return {N_VGetArrayPointer(v), N_VGetLength(v)};
+}
+
+void check(int flag, const char *what) {
+  if (flag < 0)
+    throw NumericsFailure("step", fmt::format("the time integrator failed in {} (CVODE code {})", what, flag),
+                          "try a larger time.tolerance or a finer mesh.membrane");
+}
+
+} // namespace
+
+struct BdfIntegrator::Memory {
+  explicit Memory(Equations given) : equations(std::move(given)) {}
+
+  Equations equations;
+  SUNContext context = nullptr;
+  N_Vector state = nullptr;
+  SUNMatrix matrix = nullptr;
+  SUNLinearSolver solver = nullptr;
+  void *cvode = nullptr;
+  double time = 0;
+
+  static int rate(realtype /*t*/, N_Vector y, N_Vector rate, void *data) {
+    Vector result;
+    if (!static_cast<Memory *>(data)->equations.rate(view(y), result))
+      return 1;
+    view(rate) = result;
+    return 0;
+  }
+
+  static int jacobian(realtype /*t*/, N_Vector y, N_Vector /*fy*/, SUNMatrix out, void *data,
+                      N_Vector /*tmp1*/, N_Vector /*tmp2*/, N_Vector /*tmp3*/) {
+    Matrix result;
+    if (!static_cast<Memory *>(data)->equations.jacobian(view(y), result))
+      return 1;
+    Eigen::Map<Matrix>(SM_DATA_D(out), result.rows(), result.cols()) = result;
+    return 0;
+  }
+};
+
+BdfIntegrator::BdfIntegrator(Equations equations, double time, const Vector &state, double tolerance)
+    : memory_(std::make_unique<Memory>(std::move(equations))) {
+  Memory &m = *memory_;
+  m.time = time;
+  check(SUNContext_Create(nullptr, &m.context), "SUNContext_Create");
+  m.state = N_VNew_Serial(state.size(), m.context);
+  view(m.state) = state;
+  m.cvode = CVodeCreate(CV_BDF, m.context);
+  check(CVodeInit(m.cvode, &Memory::rate, time, m.state), "CVodeInit");
+  check(CVodeSetErrFile(m.cvode, nullptr), "CVodeSetErrFile");
+  check(CVodeSStolerances(m.cvode, 0, tolerance), "CVodeSStolerances");
+  check(CVodeSetUserData(m.cvode, &m), "CVodeSetUserData");
+  m.matrix = SUNDenseMatrix(state.size(), state.size(), m.context);
+  m.solver = SUNLinSol_Dense(m.state, m.matrix, m.context);
+  check(CVodeSetLinearSolver(m.cvode, m.solver, m.matrix), "CVodeSetLinearSolver");
+  check(CVodeSetJacFn(m.cvode, &Memory::jacobian), "CVodeSetJacFn");
+}
+
+BdfIntegrator::~BdfIntegrator() {
+  Memory &m = *memory_;
+  CVodeFree(&m.cvode);
+  SUNLinSolFree(m.solver);
+  SUNMatDestroy(m.matrix);
+  N_VDestroy(m.state);
+  SUNContext_Free(&m.context);
+}
+
+void BdfIntegrator::step() {
+  // The end of the interval only tells CVODE the scale for its first step.
+  const double ahead = memory_->time + 1;
+  check(CVode(memory_->cvode, ahead, memory_->state, &memory_->time, CV_ONE_STEP), "CVode");
+}
+
+double BdfIntegrator::time() const {
+  return memory_->time;
+}
+
+double BdfIntegrator::previous_time() const {
+  double last = 0;
+  CVodeGetLastStep(memory_->cvode, &last);
+  return memory_->time - last;
+}
+
+Vector BdfIntegrator::state_at(double time) const {
+  Vector state(N_VGetLength(memory_->state));
+  const N_Vector target = N_VMake_Serial(state.size(), state.data(), memory_->context);
+  const int flag = CVodeGetDky(memory_->cvode, time, 0, target);
+  N_VDestroy(target);
+  check(flag, "CVodeGetDky");
+  return state;
+}
+
+long BdfIntegrator::rate_evaluations() const {
+  long count = 0;
+  CVodeGetNumRhsEvals(memory_->cvode, &count);
+  return count;
+}
+
+long BdfIntegrator::jacobian_evaluations() const {
+  long count = 0;
+  CVodeGetNumJacEvals(memory_->cvode, &count);
+  return count;
+}
+
+} // namespace capsule
