@@ -1,10 +1,12 @@
 #pragma once
-// A directory for the files of one test; removed with everything in it.
+// A directory for the files of one test; removed with everything in it. In memory where there is such a
+// place, because the files of a run are synced to the disk one by one.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <unistd.h>
 
 namespace capsule {
 
@@ -12,7 +14,9 @@ struct TemporaryDirectory {
   std::filesystem::path path;
 
   TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "capsule-test-XXXXXX").string();
+    const std::filesystem::path memory = "/dev/shm";
+    const auto parent = access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
+    std::string name = (parent / "capsule-test-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
       throw std::filesystem::filesystem_error("mkdtemp", name,
                                               std::error_code(errno, std::generic_category()));

@@ -1,0 +1,44 @@
+#pragma once
+// One line on a terminal about the runs under way, and whole lines about those that are done. May be called
+// from several threads at once.
+#include "case.hpp"
+#include "observables.hpp"
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace capsule {
+
+// How much of the way from the start to the nearer end of the case lies behind: 0 ... 1.
+double fraction_done(const Case &physics, const SeriesRow &row);
+
+class ProgressLine {
+public:
+  explicit ProgressLine(bool on_a_terminal) : shown(on_a_terminal) {}
+
+  // The run that takes longest is the one shown; nothing in a run's first second.
+  void update(const std::string &run, const Case &physics, const SeriesRow &row, long steps);
+  void finish(const std::string &run);
+  // A whole line on standard output.
+  void print(const std::string &line);
+
+private:
+  using Clock = std::chrono::steady_clock;
+  struct UnderWay {
+    Clock::time_point began;
+    double fraction_at_first = 0;
+    double seconds_left = 0;
+    std::string text;
+  };
+
+  void clear();
+
+  bool shown;
+  bool on_screen = false;
+  Clock::time_point last_shown;
+  std::mutex mutex;
+  std::map<std::string, UnderWay> runs;
+};
+
+} // namespace capsule

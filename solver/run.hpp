@@ -1,0 +1,47 @@
+#pragma once
+// The runs of a case, from their input to their files: what is finished is used again, what was interrupted
+// goes on, the rest is computed, several at a time. A run's files are the same whatever happened on the way,
+// except for run.json and the seconds in summary.json.
+#include "case_file.hpp"
+#include "output.hpp"
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace capsule {
+
+// What computes a run: `march`.
+using March = std::function<Outcome(const Case &, const Checkpoint &, const Control &)>;
+
+struct RunOptions {
+  // Results go to directory/summary.json, or to directory/<name of the run>/summary.json with a sweep.
+  std::filesystem::path directory;
+  // Runs that several cases share are computed in pool/<identity> and appear in `directory` too; empty:
+  // computed there.
+  std::filesystem::path pool = {};
+  unsigned jobs = 1;
+  bool fresh = false; // neither use finished runs nor checkpoints
+  bool on_a_terminal = false;
+  double seconds_between_checkpoints = 2;
+  std::function<bool()> stop = [] { return false; }; // asked after each step, from several threads
+};
+
+struct RunResult {
+  RunInput input;
+  std::filesystem::path directory;
+  std::optional<Summary> summary; // none: interrupted
+};
+
+// In the order of the case's runs. Waits for runs that another process computes at the moment. Throws
+// FileError.
+std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options, const March &march);
+
+// What there is of a run before it is computed.
+struct RunState {
+  bool finished = false;
+  double fraction = 0; // of an interrupted one
+  double wall_seconds = 0;
+};
+RunState state_of(const RunInput &run, const RunOptions &options);
+
+} // namespace capsule
