@@ -1,39 +1,41 @@
 #pragma once
 // Complete elliptic integrals that the azimuth of a ring leads to. With s = sin^2, c = cos^2 of theta over a
-// quarter period, m1 = 1 - m, Delta^2 = 1 - m s:
+// quarter period and Delta^2 = 1 - m s, m1 = 1 - m:
 //   B = int c/Delta,  C = int s c/Delta^3,  D = int s/Delta;  K = B + D,  E = B + m1 D
-// Each is smooth - ln(m1) logarithmic, polynomials of m1 both, for 0 < m1 <= 1. Make m1 from coordinate
-// differences: 1 - m has no digits left where the kernels need them. Accuracy: relative error below 5e-16 (B,
-// D) and 3e-15 (C, where it is small beside B and D). All functions are inline and free of branches: loops
-// over them become vector code.
+// for 0 < m1 <= 1. Each is smooth - ln(m1) logarithmic, both parts polynomials of m1.
+// m and m1 are both asked for: the one that is small has no digits left if it is made from the other.
+// Accuracy: relative error of each integral below 6e-16, of the logarithm in Ratio below 8e-16.
+// All functions are inline and free of branches, so that loops over them become vector code; they throw
+// nothing.
 #include "elliptic_coefficients.hpp"
 
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 namespace capsule {
 
-// Values of B, C, D themselves or of their smooth parts.
+// The integrals themselves or their smooth parts.
 struct EllipticIntegrals {
   double b;
   double c;
   double d;
 };
 
-// Logarithmic parts, and the two combinations whose strong factors m1 are taken out on paper.
+// The logarithmic parts. Those of B and of the integral of 3/Delta^5 have strong factors m1, taken out on
+// paper.
 struct EllipticLogarithms {
   double b_over_m1;
   double c;
   double d;
-  // ((2 + m1) B + m1 (1 + 2 m1) D)/m1^2, the logarithmic part of the integral of 3/Delta^5
-  double cube_over_m1_squared;
+  double quintic_over_m1_squared; // ((2 + m1) B + m1 (1 + 2 m1) D)/m1^2
 };
 
-// Sum of coefficients[First + i] x^i, Horner's scheme written out at compile time.
+// Sum of coefficients[First + i] x^i: Horner's scheme, written out at compile time.
 template <std::size_t First = 0, std::size_t Count>
 [[gnu::always_inline]] inline double polynomial(const std::array<double, Count> &coefficients, double x) {
   double sum = coefficients[Count - 1];
@@ -44,64 +46,67 @@ template <std::size_t First = 0, std::size_t Count>
   return sum;
 }
 
-[[gnu::always_inline]] inline EllipticIntegrals elliptic_smooth(double m1) {
-  using namespace elliptic_coefficients;
-  return {polynomial(b_smooth, m1), polynomial(c_smooth, m1), polynomial(d_smooth, m1)};
-}
-
 [[gnu::always_inline]] inline EllipticLogarithms elliptic_logarithmic(double m1) {
   using namespace elliptic_coefficients;
-  // B = m1 (-1/4 + m1 b), D = 1/2 + m1 d
+  // B = m1 (-1/4 + m1 b) and D = 1/2 + m1 d: the constants cancel in the integral of 1/Delta^5.
   const double b = polynomial<2>(b_logarithmic, m1);
   const double d = polynomial<1>(d_logarithmic, m1);
   return {.b_over_m1 = b_logarithmic[1] + m1 * b,
           .c = polynomial(c_logarithmic, m1),
           .d = d_logarithmic[0] + m1 * d,
-          .cube_over_m1_squared = 0.75 + (2 + m1) * b + (1 + 2 * m1) * d};
+          .quintic_over_m1_squared = 0.75 + (2 + m1) * b + (1 + 2 * m1) * d};
 }
 
-[[gnu::always_inline]] inline EllipticIntegrals elliptic_sum(const EllipticIntegrals &smooth,
-                                                             const EllipticLogarithms &logarithmic, double m1,
-                                                             double ln_m1) {
-  return {smooth.b - ln_m1 * (m1 * logarithmic.b_over_m1), smooth.c - ln_m1 * logarithmic.c,
-          smooth.d - ln_m1 * logarithmic.d};
+// What to subtract once the logarithmic parts are multiplied with `ln_m1`. For the smooth parts alone ln_m1 =
+// 0.
+[[gnu::always_inline]] inline EllipticIntegrals elliptic_integrals(double m, double m1, double ln_m1) {
+  using namespace elliptic_coefficients;
+  const EllipticLogarithms logarithmic = elliptic_logarithmic(m1);
+  // C was fitted with the logarithm less the start of its series at m1 = 1, see tool/fit_elliptic.cpp.
+  const double late_logarithm = ln_m1 + m * (1 + 0.5 * m);
+  return {.b = polynomial(b_smooth, m1) - ln_m1 * (m1 * logarithmic.b_over_m1),
+          .c = polynomial(c_smooth, m1) - late_logarithm * logarithmic.c,
+          .d = polynomial(d_smooth, m1) - ln_m1 * logarithmic.d};
 }
 
-// A ratio, its reciprocals and its natural logarithm at the price of one division.
+// A ratio, its logarithm and the reciprocals of its terms at the price of one division.
 struct Ratio {
-  double value;             // numerator/denominator
-  double over_numerator;    // 1/numerator, infinite if that is zero or denormal
-  double over_denominator;  // 1/denominator
-  double natural_logarithm; // of the value
+  double value; // numerator/denominator
+  double natural_logarithm;
+  double over_numerator; // infinite if the numerator is zero or denormal
+  double over_denominator;
 };
 
-// For 0 <= numerator <= denominator, denominator between 1e-100 and 1e100.
-[[gnu::always_inline]] inline Ratio ratio_with_logarithm(double numerator, double denominator) {
-  // The numerator is scaled with 2^-k, which brings it to between 2/3 and 3/2 of the denominator. The
-  // difference of the bits of two positive numbers is a piecewise linear logarithm; k is that, rounded.
-  // `bias` keeps it positive, so that shifts without sign do; 2^52 is added in the bits and subtracted in the
-  // number to convert k to a double.
+// For 0 <= numerator <= denominator, the denominator between 1e-100 and 1e100. `difference` is denominator -
+// numerator with all its digits, on which those of the logarithm hang where the ratio is near 1.
+[[gnu::always_inline]] inline Ratio ratio(double numerator, double denominator, double difference) {
+  // Scaled with 2^-k the numerator lies between 2/3 and 3/2 of the denominator. The bits of a positive number
+  // are a piecewise linear logarithm, and k is the rounded difference of two. The bias keeps it positive for
+  // the shifts; to become a double, biased_k is set into the last bits of 2^52.
   constexpr std::uint64_t one = std::uint64_t{1} << 52U;
   constexpr std::uint64_t bias = 1024;
+  constexpr std::uint64_t exponent_of_one = 1023;
+  constexpr double two_52 = 0x1p52;
   const auto numerator_bits = std::bit_cast<std::uint64_t>(numerator);
-  const std::uint64_t biased_k =
-      (numerator_bits - std::bit_cast<std::uint64_t>(denominator) + bias * one + one / 2) >> 52U;
-  const double k = std::bit_cast<double>(std::bit_cast<std::uint64_t>(0x1p52) | biased_k) - (0x1p52 + bias);
+  const auto denominator_bits = std::bit_cast<std::uint64_t>(denominator);
+  const std::uint64_t biased_k = (numerator_bits - denominator_bits + bias * one + one / 2) >> 52U;
+  const double k = std::bit_cast<double>(std::bit_cast<std::uint64_t>(two_52) | biased_k) - (two_52 + bias);
   const auto scaled = std::bit_cast<double>(numerator_bits - ((biased_k - bias) << 52U));
-  const auto scale = std::bit_cast<double>(((1023 + bias) - biased_k) << 52U);
+  const auto scale = std::bit_cast<double>((exponent_of_one + bias - biased_k) << 52U);
 
   const double product = scaled * denominator;
   const double sum = scaled + denominator;
   const double reciprocal = 1 / (product * sum);
   const double over_product = reciprocal * sum;
-  const double over_numerator = over_product * denominator * scale;
   const double over_denominator = over_product * scaled;
-  const double s = (scaled - denominator) * (product * reciprocal);
-  return {.value = numerator * over_denominator,
-          .over_numerator = numerator < 0x1p-1022 ? HUGE_VAL : over_numerator,
-          .over_denominator = over_denominator,
+  const double s = (k == 0 ? -difference : scaled - denominator) * (product * reciprocal);
+  return {.value = k == 0 ? 1 - difference * over_denominator : numerator * over_denominator,
           .natural_logarithm =
-              k * 0x1.62e42fefa39efp-1 + s * polynomial(elliptic_coefficients::natural_logarithm, s * s)};
+              k * std::numbers::ln2 + s * polynomial(elliptic_coefficients::natural_logarithm, s * s),
+          .over_numerator = numerator < std::numeric_limits<double>::min()
+                                ? std::numeric_limits<double>::infinity()
+                                : over_product * denominator * scale,
+          .over_denominator = over_denominator};
 }
 
 } // namespace capsule

@@ -13,6 +13,8 @@
 // and the split form hands them out apart for product quadrature on the panels that hold the target. All are
 // finite for r0 = 0 or r_k = 0; a ring that coincides with the target gives an infinity or a NaN in the
 // unsplit kernels. Accuracy: see elliptic.hpp.
+#include <string>
+#include <vector>
 
 namespace capsule {
 
@@ -38,5 +40,16 @@ void ring_stokeslet_split(double x0, double r0, const Rings &rings, const Kernel
                           const KernelRow &logarithmic);
 void ring_stresslet_split(double x0, double r0, const Rings &rings, const KernelRow &smooth,
                           const KernelRow &logarithmic);
+
+// The four kernels compiled for a class of processors. The functions above are the first of those that run
+// here; the others are for tests and benchmarks.
+struct RingKernels {
+  std::string instructions; // "avx512", "avx2", "baseline"
+  decltype(&ring_stokeslet) stokeslet;
+  decltype(&ring_stresslet) stresslet;
+  decltype(&ring_stokeslet_split) stokeslet_split;
+  decltype(&ring_stresslet_split) stresslet_split;
+};
+std::vector<RingKernels> available_ring_kernels();
 
 } // namespace capsule

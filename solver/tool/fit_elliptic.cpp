@@ -54,26 +54,30 @@ Integrals elliptic_integrals(const Real &m1) {
   return {b, (d - b) / m, d};
 }
 
-// A power x^power of P, or of Q if `logarithmic` (then it stands for -ln(x) x^power).
+using Function = std::function<Real(const Real &)>;
+
+// A power of P, or of Q if `weighted`.
 struct Term {
   int power;
-  bool logarithmic;
-  Real value(const Real &x) const {
-    const Real monomial = pow(x, power);
-    return logarithmic ? Real(-log(x) * monomial) : monomial;
-  }
+  bool weighted;
 };
 
 struct Problem {
   Real end; // of the range of x, which starts at 0
-  std::function<Real(const Real &)> function;
+  Function function;
+  Function weight;
   std::vector<std::pair<Term, Real>> imposed;
   std::vector<Term> free;
+
+  Real value(const Term &term, const Real &x) const {
+    const Real monomial = pow(x, term.power);
+    return term.weighted ? Real(weight(x) * monomial) : monomial;
+  }
 
   Real remainder(const Real &x) const {
     Real rest = function(x);
     for (const auto &[term, coefficient] : imposed) {
-      rest -= coefficient * term.value(x);
+      rest -= coefficient * value(term, x);
     }
     return rest;
   }
@@ -150,7 +154,7 @@ Fit remez(const Problem &problem) {
     const Real x = problem.end * u * u * u;
     Sample sample{x, problem.function(x), problem.remainder(x), {}};
     for (const Term &term : problem.free) {
-      sample.terms.push_back(term.value(x));
+      sample.terms.push_back(problem.value(term, x));
     }
     samples.push_back(std::move(sample));
   }
@@ -203,44 +207,38 @@ void print_array(const std::string &name, const Reals &values) {
   }
 }
 
-// P and Q of the same degree; the imposed ones are the first coefficients of each.
-void print_integral(const std::string &name, const std::function<Real(const Real &)> &function,
-                    const Reals &p_imposed, const Reals &q_imposed, int degree) {
-  Problem problem{1, function, {}, {}};
-  for (const bool logarithmic : {false, true}) {
-    const Reals &imposed = logarithmic ? q_imposed : p_imposed;
-    for (int i = 0; i <= degree; ++i) {
+struct Polynomials {
+  Reals p;
+  Reals q;
+  Real error;
+};
+
+// The imposed coefficients are the first ones of each polynomial.
+Polynomials fit(const Real &end, const Function &function, const Function &weight, Reals p, int p_degree,
+                Reals q, int q_degree) {
+  Problem problem{end, function, weight, {}, {}};
+  for (const bool weighted : {false, true}) {
+    const Reals &imposed = weighted ? q : p;
+    for (int i = 0; i <= (weighted ? q_degree : p_degree); ++i) {
       if (i < static_cast<int>(imposed.size())) {
-        problem.imposed.emplace_back(Term{i, logarithmic}, imposed[i]);
+        problem.imposed.emplace_back(Term{i, weighted}, imposed[i]);
       } else {
-        problem.free.push_back({i, logarithmic});
+        problem.free.push_back({i, weighted});
       }
     }
   }
-  const Fit fit = remez(problem);
-  Reals p = p_imposed;
-  Reals q = q_imposed;
+  const Fit best = remez(problem);
   for (std::size_t i = 0; i < problem.free.size(); ++i) {
-    (problem.free[i].logarithmic ? q : p).push_back(fit.coefficients[i]);
+    (problem.free[i].weighted ? q : p).push_back(best.coefficients[i]);
   }
-  std::printf("\n// %s: relative error %.1e before rounding.\n", name.c_str(),
-              static_cast<double>(fit.error));
-  print_array(name + "_smooth", p);
-  print_array(name + "_logarithmic", q);
+  return {std::move(p), std::move(q), best.error};
 }
 
-void print_natural_logarithm(int degree) {
-  Problem problem{Real(1) / 25, [](const Real &z) { return Real(2 * atanh(sqrt(z)) / sqrt(z)); }, {}, {}};
-  problem.imposed.emplace_back(Term{0, false}, Real(2));
-  for (int i = 1; i <= degree; ++i) {
-    problem.free.push_back({i, false});
-  }
-  const Fit fit = remez(problem);
-  Reals p{Real(2)};
-  p.insert(p.end(), fit.coefficients.begin(), fit.coefficients.end());
-  std::printf("\n// Natural logarithm: relative error %.1e before rounding.\n",
-              static_cast<double>(fit.error));
-  print_array("natural_logarithm", p);
+void print_integral(const std::string &name, const Polynomials &polynomials) {
+  std::printf("\n// %s: relative error %.1e before rounding.\n", name.c_str(),
+              static_cast<double>(polynomials.error));
+  print_array(name + "_smooth", polynomials.p);
+  print_array(name + "_logarithmic", polynomials.q);
 }
 
 } // namespace
@@ -248,18 +246,27 @@ void print_natural_logarithm(int degree) {
 int main() {
   const Real ln4 = 2 * log(Real(2));
   const Real half = Real(1) / 2;
+  const Function logarithm = [](const Real &x) { return Real(-log(x)); };
+  const Function late_logarithm = [&](const Real &x) {
+    return Real(-log(x) - (1 - x) - half * (1 - x) * (1 - x));
+  };
+  const Function b = [](const Real &m1) { return elliptic_integrals(m1).b; };
+  const Function c = [](const Real &m1) { return elliptic_integrals(m1).c; };
+  const Function d = [](const Real &m1) { return elliptic_integrals(m1).d; };
   std::puts("#pragma once\n"
-            "// Coefficients of elliptic.hpp, rising powers of m1. Written by tool/fit_elliptic.cpp.\n"
+            "// Coefficients of elliptic.hpp, rising powers. Written by tool/fit_elliptic.cpp.\n"
             "// clang-format off\n"
             "#include <array>\n\n"
             "namespace capsule::elliptic_coefficients {");
-  print_integral(
-      "b", [](const Real &m1) { return elliptic_integrals(m1).b; }, {Real(1)}, {Real(0), -half / 2}, 11);
-  print_integral(
-      "c", [](const Real &m1) { return elliptic_integrals(m1).c; }, {ln4 - 2}, {half}, 11);
-  print_integral(
-      "d", [](const Real &m1) { return elliptic_integrals(m1).d; }, {ln4 - 1}, {half}, 10);
-  print_natural_logarithm(7);
+  print_integral("b", fit(1, b, logarithm, {Real(1)}, 10, {Real(0), -half / 2}, 11));
+  print_integral("c", fit(1, c, late_logarithm, {ln4 - 2 + 3 * half * half}, 12, {half}, 10));
+  print_integral("d", fit(1, d, logarithm, {ln4 - 1}, 10, {half}, 10));
+
+  const Function area_tangent = [](const Real &z) { return Real(2 * atanh(sqrt(z)) / sqrt(z)); };
+  const Polynomials natural_logarithm = fit(Real(1) / 25, area_tangent, logarithm, {Real(2)}, 7, {}, -1);
+  std::printf("\n// ln((1 + s)/(1 - s))/s in powers of s^2: relative error %.1e before rounding.\n",
+              static_cast<double>(natural_logarithm.error));
+  print_array("natural_logarithm", natural_logarithm.p);
   std::puts("\n} // namespace capsule::elliptic_coefficients");
   return 0;
 }
