@@ -16,6 +16,10 @@ constexpr double row_spacing = 0.05;  // of x_g
 constexpr int rows_in_time = 200;     // where time tells the progress
 constexpr double runaway_stretch = 4; // a membrane stretched beyond is reported as unbounded
 constexpr double volume_drift_bound = 1e-2;
+// Buckles that the mesh cannot resolve: dents of the meridian, most of whose bending is in the shortest
+// waves.
+constexpr int wrinkle_dents = 3;
+constexpr double wrinkle_roughness = 0.4;
 
 // A value of x_g or of time at which a row is due.
 struct Station {
@@ -229,6 +233,13 @@ private:
       throw NumericsFailure("volume",
                             fmt::format("the volume has drifted by {:.2g} %", 100 * row.volume_change),
                             "try a smaller accuracy (or time.tolerance) or a finer mesh.membrane");
+    if (row.dents >= wrinkle_dents && row.roughness > wrinkle_roughness)
+      throw NumericsFailure(
+          "wrinkled",
+          fmt::format("the membrane has wrinkled: {} dents, most of their bending in waves that the "
+                      "mesh barely resolves",
+                      row.dents),
+          "raise membrane.bending_ratio, or mesh.membrane until it resolves the wrinkles");
     if (row.max_stretch > runaway_stretch)
       throw NumericsFailure(
           "unbounded", fmt::format("the membrane is stretched beyond {} and still growing", runaway_stretch),

@@ -37,6 +37,41 @@ double refined_maximum(const Vector &f) {
   return bend < 0 ? best - slope * slope / (2 * bend) : best;
 }
 
+// Stretches of negative kappa_s whose integral over the arc passes dent_angle.
+int count_dents(const MembraneState &state, double step) {
+  int dents = 0;
+  double turned_back = 0;
+  for (Eigen::Index k = 0; k < state.arc.size(); ++k) {
+    const double turn = -state.curvature_meridional[k] * state.arc[k] * step;
+    if (turn <= 0) {
+      turned_back = 0;
+      continue;
+    }
+    if (turned_back <= dent_angle && turned_back + turn > dent_angle)
+      ++dents;
+    turned_back += turn;
+  }
+  return dents;
+}
+
+// Root of the share that the shortest third of the waves has in the sum of squares of k^2 times the
+// amplitudes: the bending of the curve in the parameter.
+double roughness(const MeridianBasis &basis, const Vector &position) {
+  const Eigen::Index n = basis.size();
+  double all = 0;
+  double short_waves = 0;
+  for (const Vector &amplitudes :
+       {Vector(basis.even_from_nodes * position.head(n)), Vector(basis.odd_from_nodes * position.tail(n))})
+    for (Eigen::Index k = 0; k < amplitudes.size(); ++k) {
+      const auto wave = static_cast<double>(k);
+      const double bending = std::pow(wave * wave * amplitudes[k], 2);
+      all += bending;
+      if (3 * k > 2 * n)
+        short_waves += bending;
+    }
+  return std::sqrt(short_waves / all);
+}
+
 } // namespace
 
 Gauge::Gauge(const Case &physics, const Membrane &membrane)
@@ -120,6 +155,8 @@ SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity
   row.length = refined_maximum(state.x) + refined_maximum(-state.x);
   const double diameter = 2 * refined_maximum(state.r);
   row.deformation = (row.length - diameter) / (row.length + diameter);
+  row.roughness = roughness(membrane_.basis, position);
+  row.dents = count_dents(state, fine_.zeta[1] - fine_.zeta[0]);
   return row;
 }
 

@@ -6,6 +6,10 @@
 
 namespace capsule {
 
+// A concave stretch counts as a dent when the meridian turns back in it by more than this (radians). A smooth
+// parachute has one, at its rear; three or more are wrinkles.
+constexpr double dent_angle = 0.15;
+
 struct SeriesRow {
   double time = 0;
   double x_g = 0;                      // centre of mass
@@ -21,6 +25,8 @@ struct SeriesRow {
   double area_change = 0;
   double max_axial_residual = 0;  // max |v_x - v_g|
   double max_radial_velocity = 0; // max |v_r|
+  int dents = 0;        // concave stretches in which the meridian turns back by more than dent_angle
+  double roughness = 0; // share of the shape's bending in the mesh's shortest third of waves
 };
 
 struct Profile {
