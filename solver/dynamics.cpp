@@ -34,7 +34,7 @@ void require_capsule(const std::optional<Pore> &pore, const Vector &position) {
   if (!pore)
     return;
   for (Eigen::Index k = 0; k < n; ++k)
-    if (wall_distance(*pore, position[k], position[n + k]) <= 0)
+    if (position[n + k] >= wall_radius(*pore, position[k]))
       throw NumericsFailure("touching", "the membrane touches the wall",
                             "try a smaller accuracy or a finer mesh");
 }

@@ -127,7 +127,7 @@ Vector FlowSystem::exit_field(const Targets &points) const {
 
 void FlowSystem::solve_empty_pore() {
   const RowMatrix response = wall_response(wall_targets_, true);
-  wall_factors_.compute(response);
+  wall_inverse_ = response.partialPivLu().inverse();
   if (pore_ == PoreShape::tube) {
     empty_pressure_drop_ = 8 * wall_arc_.maxCoeff();
     return;
@@ -135,7 +135,7 @@ void FlowSystem::solve_empty_pore() {
   Vector known = exit_field(wall_targets_);
   known.conservativeResize(unknowns());
   known[wall_.size()] -= poiseuille(0) / 2; // the axis point's row: beta = 1/2 on the exit section
-  empty_traction_ = -wall_factors_.solve(known);
+  empty_traction_ = -wall_inverse_ * known;
   empty_pressure_drop_ = -empty_traction_[unknowns() - 1];
 }
 
@@ -195,7 +195,7 @@ FlowSystem::Interaction FlowSystem::interact(const Vector &position) const {
 Matrix FlowSystem::membrane_operator(const Interaction &shape) const {
   Matrix double_layer = to_nodes(shape.double_mm, even_[0], odd_[0]);
   if (has_wall())
-    double_layer -= shape.from_wall * wall_factors_.solve(to_nodes(shape.double_bm, even_[0], odd_[0]));
+    double_layer -= shape.from_wall * (wall_inverse_ * to_nodes(shape.double_bm, even_[0], odd_[0]));
   const Eigen::Index n2 = double_layer.rows();
   return (1 + viscosity_ratio_) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio_ - 1) * double_layer;
 }
@@ -211,7 +211,7 @@ FlowState FlowSystem::flow(const Interaction &shape, const Vector &load) const {
   Vector right = shape.empty_velocity + shape.single_mm * strength;
   Vector phi;
   if (has_wall()) {
-    phi = -wall_factors_.solve(shape.single_bm * strength);
+    phi = -wall_inverse_ * (shape.single_bm * strength);
     right += shape.from_wall * phi;
   }
   if (viscosity_ratio_ == 1) {
@@ -221,7 +221,7 @@ FlowState FlowSystem::flow(const Interaction &shape, const Vector &load) const {
     if (has_wall()) {
       Vector velocity(2 * q);
       velocity << even_[0] * state.velocity.head(n), odd_[0] * state.velocity.tail(n);
-      phi -= (viscosity_ratio_ - 1) * wall_factors_.solve(shape.double_bm * velocity);
+      phi -= (viscosity_ratio_ - 1) * (wall_inverse_ * (shape.double_bm * velocity));
     }
   }
   if (has_wall())
@@ -232,7 +232,7 @@ FlowState FlowSystem::flow(const Interaction &shape, const Vector &load) const {
 Matrix FlowSystem::mobility(const Interaction &shape) const {
   Matrix result = to_nodes(shape.single_mm, even_[0], odd_[0]);
   if (has_wall())
-    result -= shape.from_wall * wall_factors_.solve(to_nodes(shape.single_bm, even_[0], odd_[0]));
+    result -= shape.from_wall * (wall_inverse_ * to_nodes(shape.single_bm, even_[0], odd_[0]));
   result *= stokeslet_factor / capillary_number_;
   if (viscosity_ratio_ != 1)
     result = membrane_operator(shape).partialPivLu().solve(result);

@@ -4,7 +4,7 @@
 //   is at rest on the exit section S_P and has a uniform pressure -Delta P there:
 //     wall and exit   0 = A phi + b,   b = S_BM q/(8 pi eps) + (lambda - 1) D_BM v,  phi = (traction on S_B;
 //     P') membrane        (1+lambda)/2 v = v_e + S_MM q/(8 pi eps) + (lambda - 1) D_MM v - C A^(-1) b
-//   A is factored once; lambda = 1 leaves no system to solve in a step, any other lambda one of the
+//   A is inverted once; lambda = 1 leaves no system to solve in a step, any other lambda one of the
 //   membrane's size. Lengths, velocities, pressures in the paper's scales; with flow.type "extension" the
 //   liquid is unbounded, v_e = (x, -r/2), and epsilon is mu e a/G.
 #include "case.hpp"
@@ -78,7 +78,7 @@ private:
   Vector wall_arc_;
   Curve exit_;           // from the wall to the axis: its normal points out of the liquid
   Targets wall_targets_; // wall points and the exit's axis point
-  Eigen::PartialPivLU<Matrix> wall_factors_;
+  Matrix wall_inverse_;   // of A: applied several times a step, once to a matrix in a Jacobian
   Vector empty_traction_; // phi of the empty pore
   double empty_pressure_drop_ = 0;
 };

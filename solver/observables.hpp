@@ -25,9 +25,18 @@ struct SeriesRow {
   double area_change = 0;
   double max_axial_residual = 0;  // max |v_x - v_g|
   double max_radial_velocity = 0; // max |v_r|
-  int dents = 0;        // concave stretches in which the meridian turns back by more than dent_angle
+  double dents = 0;     // concave stretches in which the meridian turns back by more than dent_angle
   double roughness = 0; // share of the shape's bending in the mesh's shortest third of waves
 };
+
+// The entry peak of the pressure drop: the first maximum after which it falls by more than a thousandth of
+// the run's largest value, with a parabola through the three rows around it; without one, the run's largest
+// value.
+struct Peak {
+  double pressure_drop = 0;
+  double x_g = 0;
+};
+std::optional<Peak> entry_peak(const std::vector<SeriesRow> &series);
 
 struct Profile {
   double time = 0;

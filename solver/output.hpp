@@ -59,13 +59,4 @@ void remove_results(const std::filesystem::path &directory);
 // Makes the results of one directory those of another too, without copying where the file system can.
 void share_results(const std::filesystem::path &from, const std::filesystem::path &to);
 
-// The entry peak of the pressure drop: the first maximum after which it falls by more than a thousandth of
-// the run's largest value, with a parabola through the three rows around it; without one, the run's largest
-// value.
-struct Peak {
-  double pressure_drop = 0;
-  double x_g = 0;
-};
-std::optional<Peak> entry_peak(const std::vector<SeriesRow> &series);
-
 } // namespace capsule

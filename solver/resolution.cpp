@@ -9,14 +9,19 @@ Resolution choose_resolution(const Case &physics) {
   const double digits = -std::log10(physics.accuracy);
   Resolution resolution;
   resolution.membrane_nodes =
-      physics.mesh.membrane > 0 ? physics.mesh.membrane : static_cast<int>(48 + 12 * digits);
+      physics.mesh.membrane > 0 ? physics.mesh.membrane : static_cast<int>(std::lround(48 + 12 * digits));
   const int nodes = resolution.membrane_nodes;
   resolution.energy_points = nodes * 5 / 4 + 8;
+  resolution.time_tolerance = physics.time.tolerance > 0 ? physics.time.tolerance : 2e-4 * physics.accuracy;
+
   FlowResolution &flow = resolution.flow;
-  // A Gauss panel of p points resolves about p pi / (pi + 1) modes' half waves.
+  // A panel of p Gauss points resolves about two thirds of the waves that p equidistant nodes would.
   flow.membrane_panel = 0.65 * std::numbers::pi * flow.membrane_panel_points / nodes;
-  flow.near_tolerance = std::min(1e-6, physics.accuracy * 1e-3);
-  resolution.time_tolerance = physics.time.tolerance > 0 ? physics.time.tolerance : 0.01 * physics.accuracy;
+  flow.near_tolerance = std::min(1e-6, 1e-3 * physics.accuracy);
+  if (physics.mesh.wall > 0) // about two fifths of the points lie in the tube
+    flow.wall_panel = physics.pore.exit_x * flow.wall_panel_points / (0.4 * physics.mesh.wall);
+  else
+    flow.wall_panel = std::clamp(1.15 - 0.1 * digits, 0.4, 1.0);
   return resolution;
 }
 
