@@ -1,9 +1,12 @@
 #include "dynamics.hpp"
 #include "failure.hpp"
 #include "flow_system.hpp"
+#include "paper_system.hpp"
 #include "pore.hpp"
+#include "quadrature.hpp"
 #include "resolution.hpp"
 #include <memory>
+#include <numbers>
 #include <optional>
 
 namespace capsule {
@@ -68,10 +71,27 @@ Dynamics standard_dynamics(const Case &physics) {
   return dynamics;
 }
 
+Dynamics paper_dynamics(const Case &physics) {
+  constexpr int cubic = 3;
+  const MeridianBasis basis = spline_basis(physics.mesh.membrane, cubic);
+  const Panels elements = make_panels(Vector::LinSpaced(basis.size(), 0, std::numbers::pi), 5);
+  Dynamics dynamics;
+  dynamics.membrane = make_membrane(physics, basis, elements.points, elements.weights);
+  dynamics.start = start_position(dynamics.membrane, physics.capsule.start_x);
+  const auto system = std::make_shared<const PaperSystem>(make_paper_system(physics));
+  const Pore pore = make_pore(physics);
+  dynamics.flow = [system, pore](const Vector &position) {
+    require_capsule(pore, position);
+    return system->flow(position);
+  };
+  dynamics.report = dynamics.flow; // the second route is the standard preset's
+  return dynamics;
+}
+
 } // namespace
 
 Dynamics make_dynamics(const Case &physics) {
-  return standard_dynamics(physics);
+  return physics.numerics == Numerics::paper ? paper_dynamics(physics) : standard_dynamics(physics);
 }
 
 } // namespace capsule

@@ -15,7 +15,8 @@ struct Dynamics {
   std::function<FlowState(const Vector &position)> flow;
   // The same with the second route to the pressure drop.
   std::function<FlowState(const Vector &position)> report;
-  // d velocity/d position with frozen hydrodynamic mobility and the exact derivative of the membrane's load.
+  // Only of the standard preset: d velocity/d position with frozen hydrodynamic mobility and the exact
+  // derivative of the membrane's load.
   std::function<Matrix(const Vector &position)> jacobian;
 };
 

@@ -55,22 +55,22 @@ int count_dents(const MembraneState &state, double step) {
   return dents;
 }
 
+// Amplitudes of the waves cos(k zeta), k = 0 ... n - 1, from the values at n nodes.
+Matrix waves_from_nodes(const Vector &nodes) {
+  const Eigen::Index n = nodes.size();
+  Matrix waves(n, n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    waves.col(k) = (static_cast<double>(k) * nodes.array()).cos();
+  return waves.inverse();
+}
+
 // Root of the share that the shortest third of the waves has in the sum of squares of k^2 times the
-// amplitudes: the bending of the curve in the parameter.
-double roughness(const MeridianBasis &basis, const Vector &position) {
-  const Eigen::Index n = basis.size();
-  double all = 0;
-  double short_waves = 0;
-  for (const Vector &amplitudes :
-       {Vector(basis.even_from_nodes * position.head(n)), Vector(basis.odd_from_nodes * position.tail(n))})
-    for (Eigen::Index k = 0; k < amplitudes.size(); ++k) {
-      const auto wave = static_cast<double>(k);
-      const double bending = std::pow(wave * wave * amplitudes[k], 2);
-      all += bending;
-      if (3 * k > 2 * n)
-        short_waves += bending;
-    }
-  return std::sqrt(short_waves / all);
+// amplitudes of x.
+double roughness_of(const Vector &amplitudes) {
+  const Eigen::ArrayXd wave =
+      Eigen::ArrayXd::LinSpaced(amplitudes.size(), 0, static_cast<double>(amplitudes.size() - 1));
+  const Eigen::ArrayXd bending = (wave.square() * amplitudes.array()).square();
+  return std::sqrt(bending.tail(amplitudes.size() / 3).sum() / bending.sum());
 }
 
 } // namespace
@@ -99,6 +99,7 @@ Gauge::Gauge(const Case &physics, const Membrane &membrane)
   if (physics.pore.shape != PoreShape::none)
     pore_ = make_pore(physics);
   initial_ = integrals(membrane_.reference);
+  waves_ = waves_from_nodes(membrane_.basis.nodes);
 
   // S by Gauss's rule between neighbouring points.
   const GaussRule rule = gauss_legendre(6);
@@ -185,7 +186,7 @@ SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity
   row.length = refined_maximum(state.x) + refined_maximum(-state.x);
   const double diameter = 2 * refined_maximum(state.r);
   row.deformation = (row.length - diameter) / (row.length + diameter);
-  row.roughness = roughness(membrane_.basis, position);
+  row.roughness = roughness_of(waves_ * position.head(n));
   row.dents = count_dents(state, fine_.zeta[1] - fine_.zeta[0]);
   return row;
 }

@@ -75,6 +75,7 @@ private:
   Sampling panels_;
   Sampling fine_;        // from pole to pole
   Vector arc_from_pole_; // S at the points of fine_
+  Matrix waves_;         // nodal values of x -> amplitudes of cos(k zeta)
   Integrals initial_{};
 };
 
