@@ -1,13 +1,17 @@
-// Prints the coefficients of elliptic.hpp: minimax approximations of the complete elliptic integrals B, C, D.
-//   F(m1) = P(m1) - ln(m1) Q(m1) on 0 < m1 <= 1, least largest relative error of the whole sum.
-// The exchange algorithm of Remez applies as it stands: 1, x, x ln x, x^2, x^2 ln x ... is a Chebyshev
-// system. The limits m1 -> 0 are imposed: P(0), Q(0), and Q'(0) = -1/4 for B. So the relative error vanishes
-// there, and the strong singularities of the kernels' logarithmic parts cancel on paper. Also the polynomial
-// of the natural logarithm, ln((1 + s)/(1 - s)) = s P(s^2) for s^2 <= 0.04.
-#include <boost/multiprecision/cpp_bin_float.hpp>
+// Prints elliptic_coefficients.hpp: minimax approximations of the complete elliptic integrals B, C, D.
+//     F(m1) = P(m1) + W(m1) Q(m1) on 0 < m1 <= 1, least largest relative error of the whole sum
+// W = -ln(m1); for C it lacks the first two terms of its series at m1 = 1, without which P and W Q would be
+// large and cancel there. The exchange algorithm of Remez applies as it stands: 1, x, x ln x, x^2, x^2 ln x
+// ... is a Chebyshev system.
+// The limits m1 -> 0 are imposed: P(0), Q(0), and Q'(0) = -1/4 for B. So the relative error vanishes there,
+// and the strong singularities of the kernels' logarithmic parts cancel on paper.
+// Also the polynomial of the natural logarithm, ln((1 + s)/(1 - s)) = s P(s^2) for s^2 <= 0.04. Takes a
+// minute.
+#include <boost/multiprecision/cpp_dec_float.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -16,7 +20,8 @@
 
 namespace {
 
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<120>>;
+using Real =
+    boost::multiprecision::number<boost::multiprecision::cpp_dec_float<120>, boost::multiprecision::et_off>;
 using Reals = std::vector<Real>;
 
 Real pi() {
@@ -241,9 +246,7 @@ void print_integral(const std::string &name, const Polynomials &polynomials) {
   print_array(name + "_logarithmic", polynomials.q);
 }
 
-} // namespace
-
-int main() {
+void print_header() {
   const Real ln4 = 2 * log(Real(2));
   const Real half = Real(1) / 2;
   const Function logarithm = [](const Real &x) { return Real(-log(x)); };
@@ -268,5 +271,16 @@ int main() {
               static_cast<double>(natural_logarithm.error));
   print_array("natural_logarithm", natural_logarithm.p);
   std::puts("\n} // namespace capsule::elliptic_coefficients");
+}
+
+} // namespace
+
+int main() {
+  try {
+    print_header();
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
   return 0;
 }
