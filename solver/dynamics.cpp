@@ -54,14 +54,16 @@ Dynamics standard_dynamics(const Case &physics) {
   std::optional<Pore> pore;
   if (physics.pore.shape != PoreShape::none)
     pore = make_pore(physics);
-  dynamics.flow = [system, membrane, pore](const Vector &position) {
+  const auto memory = std::make_shared<FlowSystem::Memory>();
+  dynamics.forget = [memory] { *memory = {}; };
+  dynamics.flow = [system, membrane, pore, memory](const Vector &position) {
     require_capsule(pore, position);
-    return system->flow(system->interact(position), membrane_load(*membrane, position));
+    return system->flow(system->interact(position), membrane_load(*membrane, position), *memory);
   };
-  dynamics.report = [system, membrane](const Vector &position) {
+  dynamics.report = [system, membrane, memory](const Vector &position) {
     const FlowSystem::Interaction shape = system->interact(position);
     const Vector load = membrane_load(*membrane, position);
-    FlowState state = system->flow(shape, load);
+    FlowState state = system->flow(shape, load, *memory);
     state.pressure_drop_reciprocal = system->reciprocal_pressure_drop(shape, load, state.velocity);
     return state;
   };
@@ -84,6 +86,7 @@ Dynamics paper_dynamics(const Case &physics) {
     require_capsule(pore, position);
     return system->flow(position);
   };
+  dynamics.forget = [] {};
   dynamics.report = dynamics.flow; // the second route is the standard preset's
   return dynamics;
 }

@@ -18,6 +18,9 @@ struct Dynamics {
   // Only of the standard preset: d velocity/d position with frozen hydrodynamic mobility and the exact
   // derivative of the membrane's load.
   std::function<Matrix(const Vector &position)> jacobian;
+  // Drops what earlier shapes left behind to speed up the next one, so that a march depends on its start
+  // alone.
+  std::function<void()> forget;
 };
 
 // Builds what stays fixed: reference shape, matrices, the wall's factors and the empty pore's flow.

@@ -200,32 +200,60 @@ Matrix FlowSystem::membrane_operator(const Interaction &shape) const {
   return (1 + viscosity_ratio_) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio_ - 1) * double_layer;
 }
 
-FlowState FlowSystem::flow(const Interaction &shape, const Vector &load) const {
+// Nodal values -> values at the quadrature points, both components.
+Vector FlowSystem::at_panels(const Vector &nodal) const {
   const Eigen::Index n = basis_.size();
-  const Eigen::Index q = panels_.points.size();
-  Vector strength(2 * q); // q/(8 pi eps) at the quadrature points
-  strength << even_[0] * load.head(n), odd_[0] * load.tail(n);
-  strength *= stokeslet_factor / capillary_number_;
+  Vector values(2 * panels_.points.size());
+  values << even_[0] * nodal.head(n), odd_[0] * nodal.tail(n);
+  return values;
+}
 
-  FlowState state;
-  Vector right = shape.empty_velocity + shape.single_mm * strength;
-  Vector phi;
-  if (has_wall()) {
-    phi = -wall_inverse_ * (shape.single_bm * strength);
-    right += shape.from_wall * phi;
+Vector FlowSystem::apply_membrane_operator(const Interaction &shape, const Vector &velocity) const {
+  const Vector density = at_panels(velocity);
+  Vector double_layer = shape.double_mm * density;
+  if (has_wall())
+    double_layer -= shape.from_wall * (wall_inverse_ * (shape.double_bm * density));
+  return (1 + viscosity_ratio_) / 2 * velocity - (viscosity_ratio_ - 1) * double_layer;
+}
+
+// Corrections with an earlier shape's inverse; a fresh one when they gain less than a digit each.
+Vector FlowSystem::membrane_velocity(const Interaction &shape, const Vector &right, Memory &memory) const {
+  constexpr double enough = 1e-10;
+  const double scale = right.cwiseAbs().maxCoeff();
+  const auto refresh = [&] { memory.inverse = membrane_operator(shape).partialPivLu().inverse(); };
+  if (memory.inverse.size() == 0)
+    refresh();
+  Vector velocity = memory.inverse * right;
+  double before = scale;
+  for (int k = 0; k < 12; ++k) {
+    const Vector residual = right - apply_membrane_operator(shape, velocity);
+    const double error = residual.cwiseAbs().maxCoeff();
+    if (error <= enough * scale)
+      return velocity;
+    if (error > 0.1 * before)
+      refresh();
+    before = error;
+    velocity += memory.inverse * residual;
   }
-  if (viscosity_ratio_ == 1) {
-    state.velocity = right;
-  } else {
-    state.velocity = membrane_operator(shape).partialPivLu().solve(right);
-    if (has_wall()) {
-      Vector velocity(2 * q);
-      velocity << even_[0] * state.velocity.head(n), odd_[0] * state.velocity.tail(n);
-      phi -= (viscosity_ratio_ - 1) * (wall_inverse_ * (shape.double_bm * velocity));
-    }
+  throw NumericsFailure("unresolved", "the membrane's system does not converge", "try a finer mesh.membrane");
+}
+
+FlowState FlowSystem::flow(const Interaction &shape, const Vector &load, Memory &memory) const {
+  const Vector strength = stokeslet_factor / capillary_number_ * at_panels(load);
+  FlowState state;
+  state.velocity = shape.empty_velocity + shape.single_mm * strength;
+  Vector at_wall; // b of the head comment
+  if (has_wall()) {
+    at_wall = shape.single_bm * strength;
+    state.velocity -= shape.from_wall * (wall_inverse_ * at_wall);
+  }
+  if (viscosity_ratio_ != 1) {
+    state.velocity = membrane_velocity(shape, state.velocity, memory);
+    if (has_wall())
+      at_wall += (viscosity_ratio_ - 1) * (shape.double_bm * at_panels(state.velocity));
   }
   if (has_wall())
-    state.pressure_drop = -phi[unknowns() - 1];
+    state.pressure_drop = wall_inverse_.row(unknowns() - 1).dot(at_wall);
   return state;
 }
 

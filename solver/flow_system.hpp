@@ -40,8 +40,14 @@ public:
   };
   Interaction interact(const Vector &position) const;
 
+  // What lambda != 1 carries from one shape to the next: the inverse of an earlier membrane operator, which
+  // turns the new one into a few corrections. Empty at the start; the velocity is the same with any, to
+  // 1e-10.
+  struct Memory {
+    Matrix inverse;
+  };
   // load: nodal q, 2N.
-  FlowState flow(const Interaction &shape, const Vector &load) const;
+  FlowState flow(const Interaction &shape, const Vector &load, Memory &memory) const;
   // d velocity/d load for a frozen shape, 2N x 2N.
   Matrix mobility(const Interaction &shape) const;
   // Delta P by the reciprocal theorem, from the load and the empty pore's flow:
@@ -64,6 +70,9 @@ private:
   RowMatrix wall_response(const Targets &points, bool axis_only_last) const;
   Vector disturbance_sources(const Interaction &shape, const Vector &strength, const Vector *velocity) const;
   Matrix membrane_operator(const Interaction &shape) const;
+  Vector apply_membrane_operator(const Interaction &shape, const Vector &velocity) const;
+  Vector membrane_velocity(const Interaction &shape, const Vector &right, Memory &memory) const;
+  Vector at_panels(const Vector &nodal) const;
 
   double capillary_number_;
   double viscosity_ratio_;
@@ -76,8 +85,8 @@ private:
   Matrix even_[2], odd_[2]; // nodes -> quadrature points: value and derivative
   Curve wall_;
   Vector wall_arc_;
-  Curve exit_;           // from the wall to the axis: its normal points out of the liquid
-  Targets wall_targets_; // wall points and the exit's axis point
+  Curve exit_;            // from the wall to the axis: its normal points out of the liquid
+  Targets wall_targets_;  // wall points and the exit's axis point
   Matrix wall_inverse_;   // of A: applied several times a step, once to a matrix in a Jacobian
   Vector empty_traction_; // phi of the empty pore
   double empty_pressure_drop_ = 0;

@@ -137,6 +137,7 @@ private:
                               }};
     for (;;) {
       cause.reset();
+      dynamics_.forget();
       try {
         BdfIntegrator integrator(equations, record_.time, record_.position, tolerance);
         if (const auto status = run_leg(integrator, 250))

@@ -18,6 +18,8 @@ Resolution choose_resolution(const Case &physics) {
   // A panel of p Gauss points resolves about two thirds of the waves that p equidistant nodes would.
   flow.membrane_panel = 0.65 * std::numbers::pi * flow.membrane_panel_points / nodes;
   flow.near_tolerance = std::min(1e-6, 1e-3 * physics.accuracy);
+  flow.wall_panel_points = digits > 5 ? 12 : 10;
+  flow.lip_panel = digits > 5 ? 0.02 : 0.08;
   if (physics.mesh.wall > 0) // about two fifths of the points lie in the tube
     flow.wall_panel = physics.pore.exit_x * flow.wall_panel_points / (0.4 * physics.mesh.wall);
   else
