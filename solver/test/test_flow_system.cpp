@@ -91,8 +91,9 @@ BOOST_AUTO_TEST_CASE(viscous_drop_translates) {
     Vector load(2 * n);
     load << x * x / a, x * r / a;
     const auto shape = system.interact(position);
+    FlowSystem::Memory memory;
     const Vector velocity =
-        system.flow(shape, load).velocity - system.flow(shape, Vector::Zero(2 * n)).velocity;
+        system.flow(shape, load, memory).velocity - system.flow(shape, Vector::Zero(2 * n), memory).velocity;
     const double speed = 2.0 / 3 * a * a * (1 + lambda) / (2 + 3 * lambda);
     const Eigen::ArrayXd normal = velocity.head(n).array() * x / a + velocity.tail(n).array() * r / a;
     BOOST_TEST((normal - speed * x / a).abs().maxCoeff() < 1e-9);
