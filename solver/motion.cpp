@@ -233,6 +233,9 @@ private:
       record_.profiles.push_back(gauge_.profile(time, position, state.velocity));
     if (control_.progress)
       control_.progress(row, record_.steps);
+    if (gauge_.crosses_itself(position))
+      throw NumericsFailure("self-contact", "the membrane crosses itself",
+                            "raise membrane.bending_ratio or refine mesh.membrane");
     if (std::abs(row.volume_change) > volume_drift_bound)
       throw NumericsFailure("volume",
                             fmt::format("the volume has drifted by {:.2g} %", 100 * row.volume_change),

@@ -160,6 +160,21 @@ double Gauge::film(const Vector &position) const {
   return -refined_maximum(-distance);
 }
 
+bool Gauge::crosses_itself(const Vector &position) const {
+  const Eigen::Index n = membrane_.basis.size();
+  const Vector x = fine_.even[0] * position.head(n);
+  const Vector r = fine_.odd[0] * position.tail(n);
+  // Twice the area of the triangle of points a, b, c: its sign tells the side of the line ab on which c lies.
+  const auto side = [&](Eigen::Index a, Eigen::Index b, Eigen::Index c) {
+    return (x[b] - x[a]) * (r[c] - r[a]) - (r[b] - r[a]) * (x[c] - x[a]);
+  };
+  for (Eigen::Index i = 0; i + 1 < x.size(); ++i)
+    for (Eigen::Index j = i + 2; j + 1 < x.size(); ++j)
+      if (side(i, i + 1, j) * side(i, i + 1, j + 1) < 0 && side(j, j + 1, i) * side(j, j + 1, i + 1) < 0)
+        return true;
+  return false;
+}
+
 SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity) const {
   const Eigen::Index n = membrane_.basis.size();
   SeriesRow row;

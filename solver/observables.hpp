@@ -60,6 +60,8 @@ public:
   double centre(const Vector &position) const; // x_g
   // Smallest distance to the wall, negative beyond it; infinite without a wall.
   double film(const Vector &position) const;
+  // Whether the meridian crosses itself.
+  bool crosses_itself(const Vector &position) const;
   // All but the pressure drops.
   SeriesRow row(double time, const Vector &position, const Vector &velocity) const;
   Profile profile(double time, const Vector &position, const Vector &velocity) const;

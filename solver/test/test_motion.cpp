@@ -1,0 +1,121 @@
+// Marches against small-deformation theory, symmetry of interruption, and failures that must be told apart.
+#include "failure.hpp"
+#include "motion.hpp"
+#include "resolution.hpp"
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+using namespace capsule;
+
+namespace {
+
+Case in_extension(LawName law, double dilatation, double capillary_number, double viscosity_ratio) {
+  Case physics;
+  physics.pore.shape = PoreShape::none;
+  physics.flow.type = FlowType::extension;
+  physics.flow.capillary_number = capillary_number;
+  physics.flow.viscosity_ratio = viscosity_ratio;
+  physics.capsule.radius = 1;
+  physics.capsule.start_x = 0;
+  physics.membrane.law = law;
+  physics.membrane.dilatation = dilatation;
+  physics.membrane.bending_ratio = 0;
+  physics.mesh.membrane = 16;
+  physics.time.tolerance = 1e-10;
+  physics.until.time = 40 * capillary_number * (1 + viscosity_ratio);
+  return physics;
+}
+
+double steady_deformation(const Case &physics) {
+  const Outcome outcome = march(physics, {}, {});
+  BOOST_REQUIRE(outcome.status == Status::reached);
+  BOOST_TEST(outcome.last.series.back().max_radial_velocity < 1e-6);
+  return outcome.last.series.back().deformation;
+}
+
+Case short_entrance() {
+  Case physics;
+  physics.capsule.radius = 0.8;
+  physics.flow.capillary_number = 0.09;
+  physics.mesh.membrane = 24;
+  physics.time.tolerance = 1e-9; // many steps: the march passes a checkpoint
+  physics.until.x_g = 0.5;
+  return physics;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(motion)
+
+// D = (15/8)(2 + nu)/(1 + nu) Ca, nu = 1/2 (NH, SK C = 1) and 0 (SK C = 0), whatever the viscosity ratio; two
+// capillary numbers take out the term of the next order.
+BOOST_AUTO_TEST_CASE(small_deformation_in_extension) {
+  struct Row {
+    LawName law;
+    double dilatation, viscosity_ratio, slope;
+  };
+  for (const Row row : {Row{LawName::neo_hookean, 0, 1, 3.125}, Row{LawName::skalak, 1, 1, 3.125},
+                        Row{LawName::skalak, 0, 1, 3.75}, Row{LawName::skalak, 0, 0.2, 3.75},
+                        Row{LawName::neo_hookean, 0, 5, 3.125}}) {
+    const double fine = 0.001;
+    const double slope_fine =
+        steady_deformation(in_extension(row.law, row.dilatation, fine, row.viscosity_ratio)) / fine;
+    const double slope_coarse =
+        steady_deformation(in_extension(row.law, row.dilatation, 2 * fine, row.viscosity_ratio)) / (2 * fine);
+    BOOST_TEST(std::abs(2 * slope_fine - slope_coarse - row.slope) < 2e-3 * row.slope);
+  }
+}
+
+// Stopped right after any checkpoint and started from it, a march gives the same bits.
+BOOST_AUTO_TEST_CASE(a_resumed_march_is_the_same) {
+  const Case physics = short_entrance();
+  const Outcome whole = march(physics, {}, {});
+  BOOST_REQUIRE(whole.status == Status::reached);
+
+  Checkpoint saved;
+  bool stop = false;
+  Control control;
+  control.save = [&](const Checkpoint &checkpoint) {
+    saved = checkpoint;
+    stop = true;
+  };
+  control.interrupted = [&] { return stop; };
+  BOOST_REQUIRE(march(physics, {}, control).status == Status::interrupted);
+  const Outcome resumed = march(physics, saved, {});
+  BOOST_REQUIRE(resumed.status == Status::reached);
+  BOOST_REQUIRE(resumed.last.series.size() == whole.last.series.size());
+  for (std::size_t k = 0; k < whole.last.series.size(); ++k) {
+    BOOST_TEST(resumed.last.series[k].time == whole.last.series[k].time);
+    BOOST_TEST(resumed.last.series[k].pressure_drop == whole.last.series[k].pressure_drop);
+  }
+  BOOST_TEST((resumed.last.position - whole.last.position).cwiseAbs().maxCoeff() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(wrinkles_stop_a_membrane_without_bending_stiffness) {
+  Case physics;
+  physics.capsule.radius = 0.8;
+  physics.flow.capillary_number = 0.12;
+  physics.membrane.bending_ratio = 0;
+  physics.capsule.start_x = -2.5;
+  physics.mesh.membrane = 64;
+  physics.time.tolerance = 1e-6;
+  physics.until.x_g = 4;
+  const Outcome outcome = march(physics, {}, {});
+  BOOST_TEST((outcome.status == Status::failed));
+  BOOST_TEST(outcome.failure == "wrinkled");
+  BOOST_TEST(outcome.last.series.back().x_g > 1); // where the paper sees it: for x_g > 1, at the rear
+  BOOST_TEST(outcome.message.find("bending_ratio") != std::string::npos);
+}
+
+// A neo-Hookean capsule has no steady state in a strong extension.
+BOOST_AUTO_TEST_CASE(runaway_is_reported_as_unbounded) {
+  Case physics = in_extension(LawName::neo_hookean, 0, 1, 1);
+  physics.mesh.membrane = 64;
+  physics.time.tolerance = 1e-7;
+  physics.until.time = 40;
+  const Outcome outcome = march(physics, {}, {});
+  BOOST_TEST((outcome.status == Status::unbounded));
+  BOOST_TEST(std::abs(outcome.last.series.back().volume_change) < 1e-4);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
