@@ -2,6 +2,7 @@
 //   An undeformed capsule with lambda = 1 carries no load and follows the flow of the empty pore: its nodes
 //   probe it.
 #include "failure.hpp"
+#include "membrane.hpp"
 #include "paper_system.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -117,6 +118,52 @@ BOOST_AUTO_TEST_CASE(entrance_loss_converges) {
   BOOST_TEST_MESSAGE("entrance loss " << coarse << ", " << middle << ", " << fine);
   BOOST_CHECK(std::abs(fine - middle) < 0.3 * std::abs(middle - coarse));
   BOOST_CHECK_SMALL(fine - middle, 3e-3);
+}
+
+// Virtual work: the load on any displacement is minus the change of the elastic energy, which another module
+// computes (paper-notes/equations.md). Second order, as the second derivatives of cubic splines are.
+BOOST_AUTO_TEST_CASE(load_does_the_work_of_the_energy) {
+  const auto relative_error = [](int elements, LawName law) {
+    Case physics = small_case(0.8, elements, 60);
+    physics.capsule.aspect_ratio = 0.7;
+    physics.membrane.law = law;
+    physics.membrane.bending_ratio = 0.1;
+    const PaperLoad load = make_paper_load(physics, elements);
+    const MeridianBasis basis = spline_basis(elements, 3);
+    const UnitRule rule = gauss_rule(5);
+    Vector zeta(5 * elements), weights(5 * elements);
+    for (Eigen::Index q = 0; q < zeta.size(); ++q) {
+      const Eigen::Index element = q / 5;
+      zeta(q) = pi / elements * (static_cast<double>(element) + rule.nodes(q % 5));
+      weights(q) = pi / elements * rule.weights(q % 5);
+    }
+    const Membrane membrane = make_membrane(physics, basis, zeta, weights);
+    Vector position(2 * (elements + 1)), displacement(2 * (elements + 1));
+    for (Eigen::Index j = 0; j <= elements; ++j) {
+      const double z = basis.nodes(j), c = std::cos(z), sine = j % elements == 0 ? 0 : std::sin(z);
+      position(j) = -0.7 * c + 0.1 * c * c;
+      position(elements + 1 + j) = sine * (0.8 + 0.1 * c - 0.05 * c * c);
+      displacement(j) = 0.3 * c + 0.2 * c * c * c;
+      displacement(elements + 1 + j) = sine * (0.4 - 0.3 * c);
+    }
+    const MeridianSpline meridian = spline_through(load, position),
+                         shift = spline_through(load, displacement);
+    const ShapeTable shapes = tabulate_shapes(rule.nodes);
+    const MeridianSamples at = sample_meridian(meridian, shapes), by = sample_meridian(shift, shapes);
+    const LoadSamples load_at = load_samples(load, meridian, moment_splines(load, meridian), shapes);
+    double work = 0;
+    for (Eigen::Index q = 0; q < zeta.size(); ++q)
+      work += 2 * pi * rule.weights(q % 5) * at.r(q) * std::hypot(at.x_slope(q), at.r_slope(q)) *
+              (load_at.x(q) * by.x(q) + load_at.r(q) * by.r(q));
+    const double change = energy_gradient(membrane, position).dot(displacement);
+    return std::abs(work + change) / std::abs(change);
+  };
+  for (LawName law : {LawName::neo_hookean, LawName::skalak}) {
+    const double coarse = relative_error(30, law), fine = relative_error(60, law);
+    BOOST_TEST_MESSAGE("virtual work " << coarse << ", " << fine);
+    BOOST_CHECK_SMALL(fine, 1e-4);
+    BOOST_CHECK(fine < 0.3 * coarse);
+  }
 }
 
 // The single layer of the normal vanishes: a dilated sphere, whose load is a pressure, disturbs nothing.
