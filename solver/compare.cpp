@@ -173,7 +173,7 @@ std::string status_of(const Summary &summary) {
 }
 
 Comparison compare_one(const Expectation &expected, const RunResult &result) {
-  Comparison comparison{expected, result.input.name, "", "", "", false};
+  Comparison comparison{expected, result.input.name, "", "", "", false, false};
   if (expected.quantity == "status") {
     comparison.computed = status_of(*result.summary);
     comparison.agrees =
@@ -247,7 +247,7 @@ std::vector<Comparison> compare(const std::vector<Expectation> &expectations,
       if (is_selected(result.input.physics, expected.run))
         comparisons.push_back(compare_one(expected, result));
     if (comparisons.size() == before)
-      comparisons.push_back({expected, expected.run, "no such run", "", "", false});
+      comparisons.push_back({expected, expected.run, "no such run", "", "", false, true});
   }
   return comparisons;
 }

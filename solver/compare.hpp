@@ -36,6 +36,7 @@ struct Comparison {
   std::string distance; // empty for what is no number
   std::string estimate; // of the computed value's own error
   bool agrees = false;
+  bool no_such_run = false;
 };
 // One comparison per expectation and run that it speaks of.
 std::vector<Comparison> compare(const std::vector<Expectation> &expectations,

@@ -16,22 +16,21 @@ std::string duration_text(double seconds) {
 
 } // namespace
 
-double fraction_done(const Case &physics, const SeriesRow &row) {
+double fraction_done(const Case &physics, double time, double x_g) {
   double fraction = 0;
   if (physics.until.time)
-    fraction = row.time / *physics.until.time;
+    fraction = time / *physics.until.time;
   if (physics.until.x_g)
-    fraction = std::max(fraction,
-                        (row.x_g - physics.capsule.start_x) / (*physics.until.x_g - physics.capsule.start_x));
+    fraction =
+        std::max(fraction, (x_g - physics.capsule.start_x) / (*physics.until.x_g - physics.capsule.start_x));
   return std::clamp(fraction, 0.0, 1.0);
 }
 
-void ProgressLine::update(const std::string &run, const Case &physics, const SeriesRow &row, long steps) {
+void ProgressLine::update(const std::string &run, const Case &physics, double time, double x_g, long steps) {
   if (!shown)
     return;
-  const std::scoped_lock lock(mutex);
   const Clock::time_point now = Clock::now();
-  const double fraction = fraction_done(physics, row);
+  const double fraction = fraction_done(physics, time, x_g);
   UnderWay &this_run = runs.try_emplace(run, UnderWay{now, fraction, 0, ""}).first->second;
   const double seconds = std::chrono::duration<double>(now - this_run.began).count();
   const double gained = fraction - this_run.fraction_at_first;
@@ -39,7 +38,7 @@ void ProgressLine::update(const std::string &run, const Case &physics, const Ser
     return;
   this_run.seconds_left = seconds * (1 - fraction) / gained;
   this_run.text = fmt::format("{}{}t {:7.3f}  x_g {:7.3f}  step {:6}  {:3.0f} %  {:>6} left", run,
-                              run.empty() ? "" : "  ", row.time, row.x_g, steps, 100 * fraction,
+                              run.empty() ? "" : "  ", time, x_g, steps, 100 * fraction,
                               duration_text(this_run.seconds_left));
   if (now - last_shown < std::chrono::milliseconds(200))
     return;
@@ -52,13 +51,11 @@ void ProgressLine::update(const std::string &run, const Case &physics, const Ser
 }
 
 void ProgressLine::finish(const std::string &run) {
-  const std::scoped_lock lock(mutex);
   runs.erase(run);
   clear();
 }
 
 void ProgressLine::print(const std::string &line) {
-  const std::scoped_lock lock(mutex);
   clear();
   fmt::print("{}\n", line);
   std::fflush(stdout);

@@ -1,24 +1,21 @@
 #pragma once
-// One line on a terminal about the runs under way, and whole lines about those that are done. May be called
-// from several threads at once.
+// One line on a terminal about the runs under way, and whole lines about those that are done.
 #include "case.hpp"
-#include "observables.hpp"
 #include <chrono>
 #include <map>
-#include <mutex>
 #include <string>
 
 namespace capsule {
 
 // How much of the way from the start to the nearer end of the case lies behind: 0 ... 1.
-double fraction_done(const Case &physics, const SeriesRow &row);
+double fraction_done(const Case &physics, double time, double x_g);
 
 class ProgressLine {
 public:
   explicit ProgressLine(bool on_a_terminal) : shown(on_a_terminal) {}
 
   // The run that takes longest is the one shown; nothing in a run's first second.
-  void update(const std::string &run, const Case &physics, const SeriesRow &row, long steps);
+  void update(const std::string &run, const Case &physics, double time, double x_g, long steps);
   void finish(const std::string &run);
   // A whole line on standard output.
   void print(const std::string &line);
@@ -37,7 +34,6 @@ private:
   bool shown;
   bool on_screen = false;
   Clock::time_point last_shown;
-  std::mutex mutex;
   std::map<std::string, UnderWay> runs;
 };
 

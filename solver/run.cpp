@@ -1,11 +1,9 @@
 #include "run.hpp"
 #include "progress.hpp"
-#include <algorithm>
-#include <atomic>
+#include "workers.hpp"
 #include <cerrno>
 #include <chrono>
 #include <ctime>
-#include <exception>
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -68,22 +66,26 @@ fs::path home_of(const RunInput &run, const RunOptions &options) {
   return options.pool.empty() ? directory_of(run, options) : options.pool / run_identity(run.physics);
 }
 
-std::string report(const RunResult &result, const std::string &case_name, bool reused) {
+// What came of a run.
+enum Course { interrupted, computed, found };
+
+std::string report(const RunResult &result, const std::string &case_name, Course course) {
   const Summary &summary = *result.summary;
   std::string text =
       fmt::format("{}: {}", result.input.name.empty() ? case_name : result.input.name, summary.status);
   if (!summary.failure.empty())
     text += fmt::format(" ({})", summary.failure);
   const auto add = [&](const char *label, const char *quantity) {
-    if (const auto found = summary.quantities.find(quantity); found != summary.quantities.end())
-      text += fmt::format("  {} {:.6g}", label, found->second);
+    if (const auto value = summary.quantities.find(quantity); value != summary.quantities.end())
+      text += fmt::format("  {} {:.6g}", label, value->second);
   };
   add("t", "time");
   add("x_g", "x_g");
   add("v_g", "v_g");
   add("pressure drop", "pressure_drop");
   add("seconds", "wall_seconds");
-  return text + fmt::format("{}  -> {}", reused ? " (computed before)" : "", result.directory.string());
+  return text +
+         fmt::format("{}  -> {}", course == found ? " (computed before)" : "", result.directory.string());
 }
 
 // One case's runs under way.
@@ -92,9 +94,17 @@ struct Campaign {
   const RunOptions &options;
   const March &march;
   ProgressLine line;
-  std::atomic<bool> abandoned = false; // a run could not write its files: the others save what they have
+  Crew crew;
+  std::vector<RunResult> results;
 
-  bool stops() const { return abandoned || options.stop(); }
+  Campaign(const CaseInput &input_, const RunOptions &options_, const March &march_)
+      : input(input_), options(options_), march(march_), line(options_.on_a_terminal),
+        crew(input_.runs.size()) {
+    for (const RunInput &run : input.runs)
+      results.push_back({run, directory_of(run, options), std::nullopt});
+  }
+
+  bool stops() const { return crew.stops() || options.stop(); }
 
   bool wait_for(const DirectoryLock &lock, const RunInput &run) {
     for (bool told = false; !lock.acquire(); told = true) {
@@ -108,8 +118,8 @@ struct Campaign {
     return true;
   }
 
-  // To the end and true, or to a checkpoint and false.
-  bool march_in(const fs::path &home, const RunInput &run) {
+  Course march_in(const fs::path &home, std::size_t index) {
+    const RunInput &run = input.runs[index];
     const std::string identity = run_identity(run.physics);
     const auto saved = options.fresh ? std::nullopt : read_checkpoint(home, identity);
     SavedRun latest = saved.value_or(SavedRun{});
@@ -121,9 +131,15 @@ struct Campaign {
     double written = wall_seconds();
     Control control;
     control.progress = [&](const SeriesRow &row, long steps) {
-      line.update(run.name, run.physics, row, steps);
+      Crew::News &news = crew.news(index);
+      news.time = row.time;
+      news.x_g = row.x_g;
+      news.steps = steps;
     };
-    control.interrupted = [&] { return stops(); };
+    control.interrupted = [&] {
+      show_progress();
+      return stops();
+    };
     control.save = [&](const Checkpoint &checkpoint) {
       latest.checkpoint = checkpoint;
       if (wall_seconds() - written < options.seconds_between_checkpoints)
@@ -133,60 +149,72 @@ struct Campaign {
     };
     const Checkpoint from = latest.checkpoint;
     const Outcome outcome = march(run.physics, from, control);
-    line.finish(run.name);
     if (outcome.status == Status::interrupted) {
       write_checkpoint(home, identity, {latest.checkpoint, stopwatch.effort()});
-      return false;
+      return interrupted;
     }
     write_results(home, run.physics, outcome, stopwatch.effort());
-    return true;
+    return computed;
   }
 
-  RunResult compute_run(const RunInput &run) {
-    RunResult result{run, directory_of(run, options), std::nullopt};
+  Course compute_run(std::size_t index) {
+    const RunInput &run = input.runs[index];
     const fs::path home = home_of(run, options);
     make_directories(home);
     const DirectoryLock lock(home);
     if (!wait_for(lock, run))
-      return result;
-    const bool reused = !options.fresh && is_finished(home, run_identity(run.physics));
-    if (!reused && !march_in(home, run))
-      return result;
-    if (home != result.directory)
-      share_results(home, result.directory);
-    result.summary = read_summary(result.directory);
-    line.print(report(result, input.name, reused));
-    return result;
+      return interrupted;
+    const bool there = !options.fresh && is_finished(home, run_identity(run.physics));
+    const Course course = there ? found : march_in(home, index);
+    if (course != interrupted && home != results[index].directory)
+      share_results(home, results[index].directory);
+    return course;
+  }
+
+  void show_progress() {
+    for (std::size_t i = 0; i < results.size(); ++i)
+      if (const Crew::News &news = crew.news(i); news.steps > 0)
+        line.update(input.runs[i].name, input.runs[i].physics, news.time, news.x_g, news.steps);
+  }
+
+  void finish(std::size_t index, Course course) {
+    crew.news(index).steps = 0;
+    line.finish(input.runs[index].name);
+    if (course == interrupted)
+      return;
+    results[index].summary = read_summary(results[index].directory);
+    line.print(report(results[index], input.name, course));
+  }
+
+  void one_after_the_other() {
+    for (std::size_t i = 0; i < results.size() && !stops(); ++i)
+      finish(i, compute_run(i));
+  }
+
+  void side_by_side() {
+    const auto task = [&](std::size_t index) {
+      line = ProgressLine(false); // the first process shows it
+      return compute_run(index);
+    };
+    const auto watch = [&] {
+      if (options.stop())
+        crew.stop();
+      show_progress();
+    };
+    const auto finished = [&](std::size_t index, int course) { finish(index, static_cast<Course>(course)); };
+    run_in_processes({results.size(), options.jobs, task, watch, finished}, crew);
   }
 };
 
 } // namespace
 
 std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options, const March &march) {
-  const std::size_t count = input.runs.size();
-  std::vector<RunResult> results(count);
-  for (std::size_t i = 0; i < count; ++i)
-    results[i] = {input.runs[i], directory_of(input.runs[i], options), std::nullopt};
-  std::vector<std::exception_ptr> failures(count);
-  Campaign campaign{input, options, march, ProgressLine(options.on_a_terminal)};
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count && !campaign.stops(); i = next++)
-      try {
-        results[i] = campaign.compute_run(input.runs[i]);
-      } catch (...) {
-        failures[i] = std::current_exception();
-        campaign.abandoned = true;
-      }
-  };
-  {
-    std::vector<std::jthread> workers(std::min<std::size_t>(std::max(1u, options.jobs), count));
-    std::ranges::generate(workers, [&] { return std::jthread(work); });
-  }
-  for (const std::exception_ptr &failure : failures)
-    if (failure)
-      std::rethrow_exception(failure);
-  return results;
+  Campaign campaign(input, options, march);
+  if (options.jobs > 1 && input.runs.size() > 1)
+    campaign.side_by_side();
+  else
+    campaign.one_after_the_other();
+  return campaign.results;
 }
 
 RunState state_of(const RunInput &run, const RunOptions &options) {
@@ -198,7 +226,8 @@ RunState state_of(const RunInput &run, const RunOptions &options) {
   if (!saved)
     return {};
   const std::vector<SeriesRow> &series = saved->checkpoint.series;
-  return {false, series.empty() ? 0 : fraction_done(run.physics, series.back()), saved->effort.wall_seconds};
+  return {false, series.empty() ? 0 : fraction_done(run.physics, series.back().time, series.back().x_g),
+          saved->effort.wall_seconds};
 }
 
 } // namespace capsule

@@ -19,11 +19,11 @@ struct RunOptions {
   // Runs that several cases share are computed in pool/<identity> and appear in `directory` too; empty:
   // computed there.
   std::filesystem::path pool = {};
-  unsigned jobs = 1;
+  unsigned jobs = 1;  // more than one: each run in a process of its own
   bool fresh = false; // neither use finished runs nor checkpoints
   bool on_a_terminal = false;
   double seconds_between_checkpoints = 2;
-  std::function<bool()> stop = [] { return false; }; // asked after each step, from several threads
+  std::function<bool()> stop = [] { return false; }; // asked after each step
 };
 
 struct RunResult {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <csignal>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <thread>
@@ -204,11 +205,48 @@ BOOST_AUTO_TEST_CASE(a_failed_run_keeps_what_was_computed_and_stops_no_other) {
 BOOST_AUTO_TEST_CASE(a_place_that_cannot_be_written) {
   const TemporaryDirectory directory;
   directory.write("file", "");
-  const RunOptions options{.directory = directory.path / "file" / "below"};
-  BOOST_CHECK_EXCEPTION(compute(case_with({1, 2}), options, chaotic_march), FileError,
-                        [&](const FileError &error) {
-                          return std::string(error.what()).find("file/below") != std::string::npos;
+  for (const unsigned jobs : {1u, 2u}) {
+    const RunOptions options{.directory = directory.path / "file" / "below", .jobs = jobs};
+    BOOST_CHECK_EXCEPTION(compute(case_with({1, 2}), options, chaotic_march), FileError,
+                          [&](const FileError &error) {
+                            return std::string(error.what()).find("file/below") != std::string::npos;
+                          });
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_ends_by_a_signal_is_told_and_the_others_are_saved) {
+  const TemporaryDirectory directory;
+  const March march = [](const Case &physics, const Checkpoint &from, const Control &control) {
+    if (physics.flow.viscosity_ratio == 1)
+      raise(SIGKILL);
+    while (!control.interrupted())
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return Outcome{Status::interrupted, "", "", from, {}};
+  };
+  const RunOptions options{.directory = directory.path, .jobs = 2};
+  BOOST_CHECK_EXCEPTION(compute(case_with({1, 2, 3}), options, march), std::runtime_error,
+                        [](const std::runtime_error &error) {
+                          return std::string(error.what()).find("signal 9") != std::string::npos;
                         });
+  BOOST_TEST(fs::exists(directory.path / "viscosity_ratio=2" / "checkpoint.json"));
+  BOOST_TEST(!fs::exists(directory.path / "viscosity_ratio=3"));
+}
+
+BOOST_AUTO_TEST_CASE(a_stop_reaches_every_process) {
+  const TemporaryDirectory directory;
+  RunOptions options{.directory = directory.path, .jobs = 2};
+  const March march = [](const Case &, const Checkpoint &from, const Control &control) {
+    while (!control.interrupted())
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return Outcome{Status::interrupted, "", "", from, {}};
+  };
+  const pid_t first = getpid();
+  int asked = 0;
+  options.stop = [&] { return getpid() == first && ++asked > 5; };
+  const auto results = compute(case_with({1, 2, 3}), options, march);
+  BOOST_REQUIRE(results.size() == 3u);
+  for (const RunResult &result : results)
+    BOOST_TEST(!result.summary);
 }
 
 BOOST_AUTO_TEST_CASE(two_processes_do_not_compute_one_run) {
@@ -250,13 +288,9 @@ BOOST_AUTO_TEST_CASE(seconds_add_up_over_interruptions) {
 
 BOOST_AUTO_TEST_CASE(fraction_of_the_way) {
   Case physics = case_with({1}).runs[0].physics;
-  SeriesRow row;
-  row.x_g = 4;
-  row.time = 10;
-  BOOST_TEST(fraction_done(physics, row) == 0.5);
+  BOOST_TEST(fraction_done(physics, 10, 4) == 0.5);
   physics.until.time = 12.5;
-  BOOST_TEST(fraction_done(physics, row) == 0.8);
+  BOOST_TEST(fraction_done(physics, 10, 4) == 0.8);
   physics.until.x_g.reset();
-  row.time = 100;
-  BOOST_TEST(fraction_done(physics, row) == 1);
+  BOOST_TEST(fraction_done(physics, 100, 4) == 1);
 }

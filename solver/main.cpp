@@ -1,0 +1,254 @@
+// The program `capsule`: its commands and exit codes.
+//   0 done; 1 a comparison differs; 2 bad input or usage; 3 the numerics failed; 4 files; 130 interrupted
+#include "build_info.hpp"
+#include "case_keys.hpp"
+#include "compare.hpp"
+#include "failure.hpp"
+#include "motion.hpp"
+#include "new_case.hpp"
+#include "run.hpp"
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <fmt/format.h>
+#include <thread>
+#include <unistd.h>
+
+namespace {
+
+using namespace capsule;
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+enum ExitCode {
+  done = 0,
+  differs = 1,
+  bad_input = 2,
+  numerics_failed = 3,
+  files_failed = 4,
+  interrupted = 130
+};
+
+// The only thing a signal's handler may touch.
+std::atomic<bool> signal_came = false; // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+// Once: a second signal ends the program at once.
+void listen_to_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { signal_came = true; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+// What the commands that read a case have in common.
+struct Arguments {
+  std::string path;
+  std::vector<std::string> overrides;
+  std::string out;
+  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  bool fresh = false;
+  double time_limit = 0; // seconds; 0: none
+};
+
+RunOptions run_options(const Arguments &arguments, const CaseInput &input) {
+  const fs::path results = "results";
+  RunOptions options;
+  options.directory = arguments.out.empty() ? results / input.name : fs::path(arguments.out);
+  options.pool = arguments.out.empty() ? results / "runs" : fs::path();
+  options.jobs = arguments.jobs;
+  options.fresh = arguments.fresh;
+  options.on_a_terminal = isatty(STDERR_FILENO) == 1;
+  const Clock::time_point began = Clock::now();
+  options.stop = [began, limit = arguments.time_limit] {
+    return signal_came || (limit > 0 && std::chrono::duration<double>(Clock::now() - began).count() > limit);
+  };
+  return options;
+}
+
+bool is_interrupted(const RunResult &result) {
+  return !result.summary;
+}
+bool has_failed(const RunResult &result) {
+  return result.summary && result.summary->status == "failed";
+}
+
+std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arguments) {
+  listen_to_signals();
+  std::vector<RunResult> results = compute(input, run_options(arguments, input), march);
+  for (const RunResult &result : results)
+    if (has_failed(result))
+      fmt::print(stderr, "{}: {}: {}\n", result.directory.string(), result.summary->failure,
+                 result.summary->message);
+  const auto unfinished = std::ranges::count_if(results, is_interrupted);
+  if (unfinished > 0)
+    fmt::print(stderr,
+               "interrupted: {} of {} runs to finish; the same command goes on from the last checkpoint\n",
+               unfinished, results.size());
+  return results;
+}
+
+int run(const Arguments &arguments) {
+  const CaseInput input = read_case(arguments.path, arguments.overrides);
+  const std::vector<RunResult> results = compute_case(input, arguments);
+  if (std::ranges::any_of(results, is_interrupted))
+    return interrupted;
+  return std::ranges::any_of(results, has_failed) ? numerics_failed : done;
+}
+
+int check(const Arguments &arguments) {
+  const CaseInput input = read_case(arguments.path, arguments.overrides);
+  const auto table = find_expectations(input.file);
+  const auto expectations = table ? read_expectations(*table, input.name) : std::vector<Expectation>();
+  const std::vector<RunResult> results = compute_case(input, arguments);
+  if (std::ranges::any_of(results, is_interrupted))
+    return interrupted;
+  std::vector<Comparison> comparisons = compare(expectations, results);
+  // Who chooses some of the runs does not ask for the others.
+  if (!arguments.overrides.empty())
+    std::erase_if(comparisons, &Comparison::no_such_run);
+  const auto unexpected = [&](const RunResult &r) {
+    return has_failed(r) && !failure_is_expected(comparisons, r);
+  };
+  const auto failures = std::ranges::count_if(results, unexpected);
+  const auto agreeing = std::ranges::count_if(comparisons, &Comparison::agrees);
+  const bool all = agreeing == std::ssize(comparisons);
+  if (comparisons.empty())
+    fmt::print(stderr, "warning: no expectations for {}\n", input.name);
+  else
+    fmt::print("\n{}\n", comparison_table(comparisons));
+  fmt::print("{}: {}: {} of {} rows agree, {} runs failed unexpectedly\n", input.name,
+             failures > 0          ? "FAILS"
+             : comparisons.empty() ? "NOTHING TO COMPARE"
+             : all                 ? "AGREES"
+                                   : "DIFFERS",
+             agreeing, comparisons.size(), failures);
+  return failures > 0 ? numerics_failed : all ? done : differs;
+}
+
+int show(const Arguments &arguments) {
+  const CaseInput input = read_case(arguments.path, arguments.overrides);
+  const RunOptions options = run_options(arguments, input);
+  std::size_t finished = 0;
+  double seconds = 0;
+  for (const RunInput &run_input : input.runs) {
+    const RunState state = state_of(run_input, options);
+    finished += state.finished ? 1 : 0;
+    seconds += state.wall_seconds;
+    fmt::print("# {}, {}: {}\n{}\n", run_input.name.empty() ? input.name : run_input.name,
+               run_identity(run_input.physics),
+               state.finished ? fmt::format("finished in {:.3g} s", state.wall_seconds)
+               : state.fraction > 0
+                   ? fmt::format("{:.0f} % done in {:.3g} s", 100 * state.fraction, state.wall_seconds)
+                   : "to be computed",
+               resolved_toml(run_input.physics));
+  }
+  fmt::print("# {} runs, {} finished; {:.3g} s spent so far\n", input.runs.size(), finished, seconds);
+  return done;
+}
+
+int list_keys() {
+  std::string section;
+  for (const Key &key : keys()) {
+    const std::string here = key.name.substr(0, key.name.find('.'));
+    fmt::print("{}{:<26}{}\n{:<26}default: {}; allowed: {}\n", here == section ? "" : "\n", key.name,
+               key.meaning, "", default_text(key), allowed_text(key));
+    section = here;
+  }
+  fmt::print("\n{:<26}values of another case file, relative to this one, that this one overrides\n"
+             "sweep.\"any.key\" = [...]   one run per value; several sweeps make every combination\n",
+             "inherit");
+  return done;
+}
+
+int create(const std::string &id, const std::string &like) {
+  fmt::print("{}\n", new_case(".", id, like).string());
+  return done;
+}
+
+void add_case(CLI::App &command, Arguments &arguments) {
+  command.add_option("CASE", arguments.path, "a case directory or a .toml file")->required();
+  command
+      .add_option("--set", arguments.overrides,
+                  "a key's value instead of the file's, as key=value; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option(
+      "--out", arguments.out,
+      "where results go and are looked for; without it results/<case>, whose runs are shared between "
+      "cases through results/runs");
+}
+
+void add_computing(CLI::App &command, Arguments &arguments) {
+  add_case(command, arguments);
+  command.add_option("--jobs", arguments.jobs, "runs at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command.add_flag("--fresh", arguments.fresh, "compute again what is finished, from the start");
+  command
+      .add_option("--time-limit", arguments.time_limit, "leave checkpoints and stop after so many seconds")
+      ->check(CLI::PositiveNumber);
+}
+
+int run_command(int argc, char **argv) {
+  CLI::App app("Entrance of an elastic capsule in a pore");
+  app.set_version_flag("--version",
+                       fmt::format("capsule {} {}", build_info::version, build_info::git_commit));
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done, 1 a comparison differs, 2 bad input or usage, 3 the numerics failed, 4 files, "
+      "130 interrupted (the same command goes on)");
+  Arguments arguments;
+  std::string id, like;
+  int code = done;
+  CLI::App &run_app = *app.add_subcommand("run", "compute every run of a case that is not finished yet");
+  add_computing(run_app, arguments);
+  run_app.callback([&] { code = run(arguments); });
+  CLI::App &check_app =
+      *app.add_subcommand("check", "compute what is missing and compare with expected values");
+  add_computing(check_app, arguments);
+  check_app.callback([&] { code = check(arguments); });
+  CLI::App &show_app =
+      *app.add_subcommand("show", "the resolved input of every run, and what there is of it");
+  add_case(show_app, arguments);
+  show_app.callback([&] { code = show(arguments); });
+  app.add_subcommand("keys", "every key of a case file")->callback([&] { code = list_keys(); });
+  CLI::App &new_app = *app.add_subcommand("new", "a new case directory cases/ID from another one");
+  new_app.add_option("ID", id, "its name")->required();
+  new_app.add_option("--like", like, "the case directory to copy")->required();
+  new_app.callback([&] { code = create(id, like); });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError &error) {
+    return app.exit(error) == 0 ? done : bad_input;
+  }
+  return code;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  int code = done;
+  try {
+    code = run_command(argc, argv);
+    if (std::fflush(stdout) != 0)
+      throw FileError("cannot write to standard output");
+  } catch (const InputError &error) {
+    fmt::print(stderr, "{}", error.what());
+    return bad_input;
+  } catch (const NumericsFailure &failure) {
+    fmt::print(stderr, "error: {}: {}; {}\n", failure.kind, failure.what(), failure.advice);
+    return numerics_failed;
+  } catch (const FileError &error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return files_failed;
+  } catch (const std::system_error &error) { // of standard output, for one
+    fmt::print(stderr, "error: {}\n", error.what());
+    return files_failed;
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return numerics_failed;
+  }
+  return code;
+}

@@ -1,0 +1,14 @@
+#pragma once
+// A new case directory that begins as a copy of another.
+#include <filesystem>
+#include <string>
+
+namespace capsule {
+
+// Copies the files of the case directory `like` to cases/<id> below `root` and returns that path. What
+// `inherit` names is looked for from the new place. Throws InputError if `like` is no valid case, if the id
+// is no plain name, if there is something at the new place, or if the copy is no valid case there; FileError.
+std::filesystem::path new_case(const std::filesystem::path &root, const std::string &id,
+                               const std::filesystem::path &like);
+
+} // namespace capsule
