@@ -75,6 +75,20 @@ BOOST_AUTO_TEST_CASE(entrance_loss_of_a_square_mouth) {
   BOOST_TEST(std::abs(system.empty_pressure_drop() - 8 * 15 - sampson) < 0.01 * (8 * 15 + sampson));
 }
 
+// Half of the pressure drop through a whole hyperboloid, 3 pi sin^3/((1 - cos)^2 (1 + 2 cos)), is what the
+// mouth adds, but for the tube that replaces the other half.
+BOOST_AUTO_TEST_CASE(entrance_loss_of_the_hyperbolic_mouth) {
+  for (const double degrees : {60.0, 78.5}) {
+    Case physics = pore_case(0.8, -4);
+    physics.pore.opening_angle_deg = degrees;
+    const double sine = std::sin(degrees * pi / 180);
+    const double cosine = std::cos(degrees * pi / 180);
+    const double hyperboloid = 3 * pi * std::pow(sine, 3) / (std::pow(1 - cosine, 2) * (1 + 2 * cosine));
+    const double loss = FlowSystem(physics, spectral_basis(16), {}).empty_pressure_drop() - 8 * 15;
+    BOOST_TEST(std::abs(loss - hyperboloid / 2) < 0.02 * loss);
+  }
+}
+
 // Hadamard and Rybczynski: the load q = x n moves a spherical drop with U = (2/3) a^2 (1 + lambda)/(2 + 3
 // lambda) and the slip U sin(theta)/(2 (1 + lambda)).
 BOOST_AUTO_TEST_CASE(viscous_drop_translates) {
