@@ -6,6 +6,7 @@
 #include "failure.hpp"
 #include "motion.hpp"
 #include "new_case.hpp"
+#include "progress.hpp"
 #include "run.hpp"
 #include <CLI/CLI.hpp>
 #include <atomic>
@@ -132,20 +133,21 @@ int show(const Arguments &arguments) {
   const CaseInput input = read_case(arguments.path, arguments.overrides);
   const RunOptions options = run_options(arguments, input);
   std::size_t finished = 0;
-  double seconds = 0;
+  double seconds_left = 0;
   for (const RunInput &run_input : input.runs) {
     const RunState state = state_of(run_input, options);
+    const double left = (1 - state.fraction) * estimated_seconds(run_input.physics);
     finished += state.finished ? 1 : 0;
-    seconds += state.wall_seconds;
-    fmt::print("# {}, {}: {}\n{}\n", run_input.name.empty() ? input.name : run_input.name,
-               run_identity(run_input.physics),
-               state.finished ? fmt::format("finished in {:.3g} s", state.wall_seconds)
-               : state.fraction > 0
-                   ? fmt::format("{:.0f} % done in {:.3g} s", 100 * state.fraction, state.wall_seconds)
-                   : "to be computed",
+    seconds_left += left;
+    fmt::print("# {}: {}{}\n{}\n", run_input.name.empty() ? input.name : run_input.name,
+               state.finished       ? fmt::format("finished in {}", duration_text(state.wall_seconds))
+               : state.fraction > 0 ? fmt::format("{:.0f} % done", 100 * state.fraction)
+                                    : "to be computed",
+               state.finished ? "" : fmt::format(", about {} to go", duration_text(left)),
                resolved_toml(run_input.physics));
   }
-  fmt::print("# {} runs, {} finished; {:.3g} s spent so far\n", input.runs.size(), finished, seconds);
+  fmt::print("# {} runs, {} finished, about {} of one core to go\n", input.runs.size(), finished,
+             duration_text(seconds_left));
   return done;
 }
 

@@ -3,6 +3,7 @@
 #include "case_file.hpp"
 #include "case_keys.hpp"
 #include "failure.hpp"
+#include "resolution.hpp"
 #include "text.hpp"
 #include <algorithm>
 #include <array>
@@ -253,9 +254,15 @@ Json summary_json(const Case &physics, const Outcome &outcome, const Effort &eff
   json["steps"] = outcome.last.steps;
   json["cpu_seconds"] = effort.cpu_seconds;
   json["wall_seconds"] = effort.wall_seconds;
+  // Complete: also what followed from the accuracy asked for.
+  Case resolved = physics;
+  const Resolution chosen = choose_resolution(physics);
+  resolved.mesh.membrane = chosen.membrane_nodes;
+  if (physics.time.scheme == Scheme::bdf)
+    resolved.time.tolerance = chosen.time_tolerance;
   json["parameters"] = Json::object();
   for (const Key &key : keys()) {
-    const auto value = get_value(key, physics);
+    const auto value = get_value(key, resolved);
     json["parameters"][key.name] = value ? to_json(*value) : Json();
   }
   return json;

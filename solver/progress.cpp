@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 namespace capsule {
-namespace {
-
 std::string duration_text(double seconds) {
   if (seconds < 100)
     return fmt::format("{:.0f} s", seconds);
@@ -13,8 +11,6 @@ std::string duration_text(double seconds) {
     return fmt::format("{:.0f} min", seconds / 60);
   return fmt::format("{:.1f} h", seconds / 3600);
 }
-
-} // namespace
 
 double fraction_done(const Case &physics, double time, double x_g) {
   double fraction = 0;

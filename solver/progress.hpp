@@ -10,6 +10,9 @@ namespace capsule {
 // How much of the way from the start to the nearer end of the case lies behind: 0 ... 1.
 double fraction_done(const Case &physics, double time, double x_g);
 
+// "12 s", "3 min", "2.5 h"
+std::string duration_text(double seconds);
+
 class ProgressLine {
 public:
   explicit ProgressLine(bool on_a_terminal) : shown(on_a_terminal) {}

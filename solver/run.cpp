@@ -1,8 +1,11 @@
 #include "run.hpp"
 #include "progress.hpp"
+#include "resolution.hpp"
 #include "workers.hpp"
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <fcntl.h>
 #include <fmt/chrono.h>
@@ -228,6 +231,20 @@ RunState state_of(const RunInput &run, const RunOptions &options) {
   const std::vector<SeriesRow> &series = saved->checkpoint.series;
   return {false, series.empty() ? 0 : fraction_done(run.physics, series.back().time, series.back().x_g),
           saved->effort.wall_seconds};
+}
+
+double estimated_seconds(const Case &physics) {
+  const Resolution chosen = choose_resolution(physics);
+  // An entrance of the paper takes 1.6 units of time per length.
+  const double way = physics.until.x_g.value_or(11.84) - physics.capsule.start_x;
+  const double duration = std::min(1.6 * way, physics.until.time.value_or(1.6 * way));
+  if (physics.time.scheme == Scheme::euler) {
+    // Nearly all of a step is the LU decomposition of eq. 29.
+    const double unknowns = chosen.membrane_nodes + std::max(physics.mesh.wall, 120);
+    return duration / physics.time.step * 4e-3 * std::pow(unknowns / 180, 3);
+  }
+  const double whole_entrance = physics.flow.viscosity_ratio == 1 ? 4 : 8;
+  return whole_entrance * std::pow(chosen.membrane_nodes / 96.0, 3) * duration / 25;
 }
 
 } // namespace capsule

@@ -22,7 +22,7 @@ struct RunOptions {
   unsigned jobs = 1;  // more than one: each run in a process of its own
   bool fresh = false; // neither use finished runs nor checkpoints
   bool on_a_terminal = false;
-  double seconds_between_checkpoints = 2;
+  double seconds_between_checkpoints = 0.5;
   std::function<bool()> stop = [] { return false; }; // asked after each step
 };
 
@@ -43,5 +43,8 @@ struct RunState {
   double wall_seconds = 0;
 };
 RunState state_of(const RunInput &run, const RunOptions &options);
+
+// What a whole run costs on one core, from runs that were measured on one server: good to a factor of three.
+double estimated_seconds(const Case &physics);
 
 } // namespace capsule

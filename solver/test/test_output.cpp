@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(results_of_a_run) {
   BOOST_TEST(summary.error_estimate.at("v_g") == 1e-5);
   const std::string text = content_of(directory.path / "summary.json");
   for (const char *part : {"\"flow.capillary_number\": 0.04", "\"membrane.law\": \"neo-hookean\"",
-                           "\"mesh.membrane\": null", "\"max_radial_velocity\": null", "\"failure\": null"})
+                           "\"mesh.wall\": null", "\"max_radial_velocity\": null", "\"failure\": null"})
     BOOST_CHECK_MESSAGE(text.find(part) != std::string::npos, part << " is not in " << text);
 
   const auto series = lines_of(directory.path / "series.csv");

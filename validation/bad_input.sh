@@ -1,0 +1,104 @@
+#!/bin/sh
+# Bad input of every kind ends with exit code 2 and a located message, before anything is written.
+#   sh validation/bad_input.sh path/to/capsule
+set -u
+capsule=$(realpath "$1")
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+cd "$place" || exit 1
+failures=0
+
+# expect CODE PATTERN COMMAND...: the code, a line of the output that fits the pattern, and nothing new on the disk
+expect() {
+  code=$1
+  pattern=$2
+  shift 2
+  before=$(find . | sort)
+  output=$("$@" 2>&1)
+  got=$?
+  if [ "$got" -ne "$code" ] || ! printf '%s\n' "$output" | grep -Eq -e "$pattern" || [ "$(find . | sort)" != "$before" ]; then
+    printf 'FAILED: %s\n  exit code %s instead of %s, or nothing like "%s", or new files:\n%s\n' \
+      "$*" "$got" "$code" "$pattern" "$output"
+    failures=$((failures + 1))
+  fi
+}
+
+# bad PATTERN: a case directory with the text of standard input as case.toml is refused by run, check and show
+bad() {
+  mkdir -p bad
+  cat >bad/case.toml
+  for command in run check show; do
+    expect 2 "^bad/case.toml:$1" "$capsule" "$command" bad
+  done
+}
+
+# good KEY=VALUE...: a good file, but for what is added
+good='capsule.radius = 0.9
+membrane.law = "skalak"
+flow.capillary_number = 0.04'
+
+echo "$good
+flow.viscosty_ratio = 1" | bad "4:1: error: unknown key 'flow.viscosty_ratio'"
+echo "$good
+flow.viscosity_ratio = \"one\"" | bad '4:24: error: .* must be a number'
+echo "$good
+pore.opening_angle_deg = 120" | bad '4:26: error: .* is out of range'
+echo 'membrane.law = "skalak"
+capsule.radius = 0.9' | bad "1:1: error: missing key 'flow.capillary_number'"
+printf 'accuracy = 1\n%s\nmesh.wall = 1.5\n' "$good" | bad '5:13: error: mesh.wall must be a whole number'
+printf 'accuracy = 1\n%s\nmesh.wall = 1.5\n' "$good" | bad '1:12: error: accuracy = 1 is out of range'
+printf '' | bad '1:1: error: the file holds no keys'
+printf '\000\001\002\377' | bad '1:1: error: not a text file'
+printf 'title = "\377\376"\n%s\n' "$good" | bad '1:[0-9]+: error: '
+echo "$good" | sed 's/skalak/mooney/' | bad "2:16: error: unknown membrane.law 'mooney'"
+echo "$good" | sed 's/0.04/-0.04/' | bad '3:25: error: flow.capillary_number = -0.04 is out of range'
+echo "$good" | sed 's/0.04/nan/' | bad '3:25: error: .* must be a finite number, not nan'
+echo "$good" | sed 's/0.04/inf/' | bad '3:25: error: .* must be a finite number, not inf'
+echo "$good
+capsule.aspect_ratio = 0" | bad '4:24: error: capsule.aspect_ratio = 0 is out of range'
+echo "$good
+capsule.start_x = -40" | bad '4:19: error: capsule outside the reservoir'
+echo "$good
+capsule.start_x = 0" | sed 's/0.9/1.1/' | bad "4:19: error: capsule larger than the pore's entrance at its start"
+echo "$good
+until.x_g = 14.5" | bad '4:13: error: at until.x_g = 14.5 the capsule would cross the exit section'
+echo "$good
+[sweep]
+\"flow.viscosity\" = [1, 2]" | bad "5:1: error: unknown key 'flow.viscosity' in sweep"
+echo "$good
+[sweep]
+\"flow.viscosity_ratio\" = [1, \"a\"]" | bad '5:30: error: .* must be a number'
+echo "$good
+[mesh" | bad '4:[0-9]+: error: '
+echo "$good
+flow.capillary_number = 0.1" | bad '4:[0-9]+: error: .*capillary_number'
+echo "inherit = 'none.toml'
+$good" | bad "1:11: error: .*none.toml': no such file"
+echo "inherit = 'case.toml'
+$good" | bad "1:11: error: .* inherits from itself"
+rm -r bad
+
+expect 2 '^none:1:1: error: no such file' "$capsule" run none
+mkdir empty
+expect 2 '^empty/case.toml:1:1: error: no such file' "$capsule" run empty
+echo "$good" >file.toml
+expect 2 '^file.toml/below:1:1: error: no such file' "$capsule" run file.toml/below
+ln -s /proc/self/mem unreadable.toml
+expect 2 '^unreadable.toml:1:1: error: cannot be read' "$capsule" run unreadable.toml
+expect 2 '^--set:1:1: error: unknown key' "$capsule" run file.toml --set flow.viscosity=1
+expect 2 '^--set:1:1: error: expected key=value' "$capsule" run file.toml --set flow.viscosity_ratio
+expect 2 '^--set:1:22: error: flow.viscosity_ratio = -1' "$capsule" run file.toml --set flow.viscosity_ratio=-1
+expect 2 'CASE' "$capsule" run
+expect 2 'subcommand' "$capsule"
+expect 2 'jobs' "$capsule" run file.toml --jobs 0
+expect 2 'time-limit' "$capsule" run file.toml --time-limit -1
+expect 2 'error: is not a case directory' "$capsule" new fresh --like none
+expect 0 'capillary_number' "$capsule" keys
+expect 0 'Usage' "$capsule" run --help
+expect 0 '^capsule [0-9]' "$capsule" --version
+expect 0 'to be computed' "$capsule" show file.toml
+expect 4 'No space left' sh -c "'$capsule' keys >/dev/full"
+expect 4 'file.toml/below' "$capsule" run file.toml --out file.toml/below
+
+[ "$failures" -eq 0 ] && echo "every kind of bad input is refused"
+exit "$failures"

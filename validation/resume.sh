@@ -1,0 +1,74 @@
+#!/bin/sh
+# A run that is killed, interrupted or stopped by its time limit goes on and ends with the files of one that never was.
+#   sh validation/resume.sh path/to/capsule
+set -eu
+capsule=$(realpath "$1")
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+cd "$place"
+cat >case.toml <<'TOML'
+accuracy = 1e-2
+capsule.radius = 0.9
+membrane.law = "skalak"
+membrane.dilatation = 0
+flow.capillary_number = 0.04
+until.x_g = 4
+output.profiles_at_x_g = [-1, 2]
+TOML
+
+fail() {
+  echo "FAILED: $*"
+  exit 1
+}
+
+"$capsule" run case.toml --out whole
+
+# Killed as soon as there is a checkpoint.
+"$capsule" run case.toml --out killed &
+process=$!
+while [ ! -e killed/checkpoint.json ] && kill -0 "$process" 2>/dev/null; do sleep 0.05; done
+kill -9 "$process" || fail 'finished without a checkpoint'
+wait "$process" && fail 'survived being killed'
+[ ! -e killed/summary.json ] || fail 'a killed run has a summary'
+"$capsule" show case.toml --out killed | grep -q '% done' || fail 'show does not know the checkpoint'
+"$capsule" run case.toml --out killed
+
+# Interrupted by the user, and by the time limit, until it is done.
+"$capsule" run case.toml --out interrupted &
+process=$!
+while [ ! -d interrupted ]; do sleep 0.05; done
+sleep 0.2
+kill -INT "$process"
+code=0
+wait "$process" || code=$?
+[ "$code" -eq 130 ] || fail "exit code $code after SIGINT"
+[ -e interrupted/checkpoint.json ] || fail 'no checkpoint after SIGINT'
+code=0
+"$capsule" run case.toml --out interrupted --time-limit 0.2 || code=$?
+[ "$code" -eq 130 ] || fail "exit code $code after the time limit"
+"$capsule" run case.toml --out interrupted
+
+# A sweep whose first process is killed: its children save and end, or finish; then it goes on.
+sweep='sweep."membrane.dilatation"=[0, 1]'
+"$capsule" run case.toml --set "$sweep" --jobs 2 --out sweep &
+process=$!
+while [ ! -d sweep/dilatation=1 ]; do sleep 0.05; done
+sleep 0.2
+kill -9 "$process"
+wait "$process" && fail 'survived being killed'
+"$capsule" run case.toml --set "$sweep" --jobs 2 --out sweep
+
+numbers() { # all files of a run but for what tells of the way there
+  for file in "$1"/*; do
+    case $file in
+    */run.json) ;;
+    *) echo "${file##*/}" && grep -v '_seconds"' "$file" ;;
+    esac
+  done
+}
+numbers whole >expected
+for directory in killed interrupted sweep/dilatation=0; do
+  numbers "$directory" >got
+  cmp expected got || fail "$directory is not the run that was never interrupted"
+done
+echo 'interrupted runs end as the others do'
