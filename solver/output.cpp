@@ -16,6 +16,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fstream>
+#include <functional>
 #include <gsl/gsl_version.h>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -302,11 +303,12 @@ bool is_result(const fs::path &file) {
          (name.starts_with("membrane_") && name.ends_with(".vtp"));
 }
 
-std::vector<fs::path> results_in(const fs::path &directory) {
+std::vector<fs::path> files_in(const fs::path &directory,
+                               const std::function<bool(const fs::path &)> &wanted) {
   std::vector<fs::path> files;
   std::error_code ec;
   for (fs::directory_iterator entry(directory, ec), end; !ec && entry != end; entry.increment(ec))
-    if (is_result(entry->path()))
+    if (wanted(entry->path()))
       files.push_back(entry->path());
   if (ec)
     fail("cannot list", directory, ec.value());
@@ -320,8 +322,15 @@ void remove_file(const fs::path &file) {
     fail("cannot remove", file, ec.value());
 }
 
+constexpr std::string_view temporary_prefix = ".writing-";
+
 fs::path temporary_beside(const fs::path &file) {
-  return file.parent_path() / fmt::format(".{}.{}", file.filename().string(), getpid());
+  return file.parent_path() / fmt::format("{}{}.{}", temporary_prefix, file.filename().string(), getpid());
+}
+
+// What a killed process leaves behind.
+bool is_temporary(const fs::path &file) {
+  return file.filename().string().starts_with(temporary_prefix);
 }
 
 // A hard link, or a copy where there can be none.
@@ -439,6 +448,10 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
   write_atomically(directory / "resolved.toml", resolved_toml(physics));
   write_atomically(directory / "run.json", provenance_json(physics, effort).dump(2) + "\n");
   write_atomically(directory / "summary.json", summary_json(physics, outcome, effort).dump(2) + "\n");
+  remove_checkpoint(directory);
+}
+
+void remove_checkpoint(const fs::path &directory) {
   remove_file(directory / "checkpoint.json");
 }
 
@@ -478,7 +491,8 @@ bool is_finished(const fs::path &directory, const std::string &identity) {
 
 void remove_results(const fs::path &directory) {
   remove_file(directory / "summary.json");
-  for (const fs::path &file : results_in(directory))
+  for (const fs::path &file :
+       files_in(directory, [](const fs::path &f) { return is_result(f) || is_temporary(f); }))
     remove_file(file);
 }
 
@@ -488,7 +502,7 @@ void share_results(const fs::path &from, const fs::path &to) {
     return;
   make_directories(to);
   remove_results(to);
-  for (const fs::path &file : results_in(from))
+  for (const fs::path &file : files_in(from, is_result))
     if (file.filename() != "summary.json")
       share_file(file, to / file.filename());
   share_file(from / "summary.json", to / "summary.json");

@@ -37,6 +37,7 @@ void write_checkpoint(const std::filesystem::path &directory, const std::string 
                       const SavedRun &saved);
 // Nothing if there is none, or one of another run.
 std::optional<SavedRun> read_checkpoint(const std::filesystem::path &directory, const std::string &identity);
+void remove_checkpoint(const std::filesystem::path &directory);
 
 // All files of a finished run, summary.json last; then the checkpoint goes.
 void write_results(const std::filesystem::path &directory, const Case &physics, const Outcome &outcome,
@@ -54,7 +55,8 @@ Summary read_summary(const std::filesystem::path &directory);
 // Whether the directory holds the finished run of this identity.
 bool is_finished(const std::filesystem::path &directory, const std::string &identity);
 
-// Takes away the results of whatever run the directory holds, the summary first.
+// Takes away the results of whatever run the directory holds, the summary first, and what a killed process
+// left.
 void remove_results(const std::filesystem::path &directory);
 // Makes the results of one directory those of another too, without copying where the file system can.
 void share_results(const std::filesystem::path &from, const std::filesystem::path &to);

@@ -169,6 +169,8 @@ struct Campaign {
       return interrupted;
     const bool there = !options.fresh && is_finished(home, run_identity(run.physics));
     const Course course = there ? found : march_in(home, index);
+    if (there)
+      remove_checkpoint(home); // of a process that was killed when it was nearly done
     if (course != interrupted && home != results[index].directory)
       share_results(home, results[index].directory);
     return course;

@@ -7,12 +7,11 @@ place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 cd "$place"
 cat >case.toml <<'TOML'
-accuracy = 1e-2
 capsule.radius = 0.9
 membrane.law = "skalak"
 membrane.dilatation = 0
 flow.capillary_number = 0.04
-until.x_g = 4
+until.x_g = 11
 output.profiles_at_x_g = [-1, 2]
 TOML
 

@@ -146,6 +146,11 @@ BOOST_AUTO_TEST_CASE(finished_runs_are_used_again) {
   BOOST_TEST(counted.calls == 2);
   compute(case_with({1, 5}), options, counted.march);
   BOOST_TEST(counted.calls == 2);
+  // A process that is killed when only its checkpoint is left to remove has finished.
+  const auto checkpoint = directory.write("a/viscosity_ratio=1/checkpoint.json", "{}");
+  compute(case_with({1, 5}), options, counted.march);
+  BOOST_TEST(counted.calls == 2);
+  BOOST_TEST(!fs::exists(checkpoint));
   BOOST_TEST(state_of(case_with({1, 5}).runs[1], options).finished);
   // Another physics in the same place replaces it.
   CaseInput changed = case_with({1, 5});
