@@ -25,6 +25,9 @@ Matrix load_jacobian(const Membrane &membrane, const Vector &position) {
   return (-masses.cwiseInverse()).asDiagonal() * energy_hessian(membrane, position);
 }
 
+// How close to the sections at the pore's ends a membrane may come; their flow is assumed to be Poiseuille's.
+constexpr double section_margin = 0.1;
+
 // What no flow can be computed for: the integrator then tries a shorter step, and the march fails if none
 // helps.
 void require_capsule(const std::optional<Pore> &pore, const Vector &position) {
@@ -36,6 +39,10 @@ void require_capsule(const std::optional<Pore> &pore, const Vector &position) {
     throw NumericsFailure("folded", "the membrane crosses the axis", "try a larger membrane.bending_ratio");
   if (!pore)
     return;
+  if (position.head(n).maxCoeff() > pore->exit_x - section_margin ||
+      (pore->shape == PoreShape::tube &&
+       position.head(n).minCoeff() < section_margin - pore->entrance_distance))
+    throw NumericsFailure("exit", "the membrane reaches the end of the pore", "move pore.exit_x away");
   for (Eigen::Index k = 0; k < n; ++k)
     if (position[n + k] >= wall_radius(*pore, position[k]))
       throw NumericsFailure("touching", "the membrane touches the wall",

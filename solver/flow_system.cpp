@@ -58,12 +58,12 @@ FlowSystem::FlowSystem(const Case &physics, const MeridianBasis &basis, const Fl
   }
   if (pore_ == PoreShape::none)
     return;
-  build_wall(physics);
-  solve_empty_pore();
+  const Pore pore = make_pore(physics);
+  build_wall(pore);
+  solve_empty_pore(pore);
 }
 
-void FlowSystem::build_wall(const Case &physics) {
-  const Pore pore = make_pore(physics);
+void FlowSystem::build_wall(const Pore &pore) {
   const Panels along = make_panels(wall_edges(pore, resolution_), resolution_.wall_panel_points);
   const Eigen::Index n = along.points.size();
   wall_arc_ = along.points;
@@ -84,7 +84,7 @@ void FlowSystem::build_wall(const Case &physics) {
   const Eigen::Index m = across.points.size();
   exit_.panel_points = 16;
   exit_.weights = across.weights;
-  exit_.x = Vector::Constant(m, physics.pore.exit_x);
+  exit_.x = Vector::Constant(m, pore.exit_x);
   exit_.r = 1 - across.points.array();
   exit_.x_zeta = Vector::Zero(m);
   exit_.r_zeta = Vector::Constant(m, -1);
@@ -92,7 +92,7 @@ void FlowSystem::build_wall(const Case &physics) {
 
   wall_targets_.x.resize(n + 1);
   wall_targets_.r.resize(n + 1);
-  wall_targets_.x << wall_.x, physics.pore.exit_x;
+  wall_targets_.x << wall_.x, pore.exit_x;
   wall_targets_.r << wall_.r, 0;
 }
 
@@ -125,11 +125,11 @@ Vector FlowSystem::exit_field(const Targets &points) const {
   return -4 * stokeslet_factor * (single.rightCols(m) * exit_.r) + double_layer.leftCols(m) * velocity;
 }
 
-void FlowSystem::solve_empty_pore() {
+void FlowSystem::solve_empty_pore(const Pore &pore) {
   const RowMatrix response = wall_response(wall_targets_, true);
   wall_inverse_ = response.partialPivLu().inverse();
   if (pore_ == PoreShape::tube) {
-    empty_pressure_drop_ = 8 * wall_arc_.maxCoeff();
+    empty_pressure_drop_ = 8 * pore.entrance_arc;
     return;
   }
   Vector known = exit_field(wall_targets_);

@@ -1,17 +1,23 @@
 #pragma once
 // The flow that a given membrane shape and load make, eq. 16, with the fixed wall eliminated once.
-//   Everything is split into the flow of the empty pore (subscript e, found once) and the disturbance, which
-//   is at rest on the exit section S_P and has a uniform pressure -Delta P there:
-//     wall and exit   0 = A phi + b,   b = S_BM q/(8 pi eps) + (lambda - 1) D_BM v,  phi = (traction on S_B;
-//     P') membrane        (1+lambda)/2 v = v_e + S_MM q/(8 pi eps) + (lambda - 1) D_MM v - C A^(-1) b
-//   A is inverted once; lambda = 1 leaves no system to solve in a step, any other lambda one of the
-//   membrane's size. Lengths, velocities, pressures in the paper's scales; with flow.type "extension" the
-//   liquid is unbounded, v_e = (x, -r/2), and epsilon is mu e a/G.
+//
+// Everything is split into the flow of the empty pore (subscript e, found once) and the disturbance, which is
+// at rest on the exit section S_P and has a uniform pressure there:
+//
+//   - on the wall and the exit 0 = A phi + b, with phi = (traction on S_B; P') and
+//     b = S_BM q/(8 pi eps) + (lambda - 1) D_BM v
+//
+//   - on the membrane (1 + lambda)/2 v = v_e + S_MM q/(8 pi eps) + (lambda - 1) D_MM v - C A^(-1) b
+//
+// A is inverted once; lambda = 1 leaves no system to solve in a step, any other lambda one of the membrane's
+// size. Lengths, velocities and pressures are in the paper's scales; with flow.type "extension" the liquid is
+// unbounded, v_e = (x, -r/2), and epsilon is mu e a/G. Derivation: paper-notes/equations.md. Throws
+// NumericsFailure("unresolved") if the membrane's system does not converge.
 #include "case.hpp"
 #include "flow_state.hpp"
 #include "layer_potential.hpp"
 #include "meridian.hpp"
-#include <optional>
+#include "pore.hpp"
 
 namespace capsule {
 
@@ -64,11 +70,10 @@ public:
 private:
   bool has_wall() const { return wall_.size() > 0; }
   Eigen::Index unknowns() const { return 2 * wall_.size() + 1; }
-  void build_wall(const Case &physics);
-  void solve_empty_pore();
+  void build_wall(const Pore &pore);
+  void solve_empty_pore(const Pore &pore);
   Vector exit_field(const Targets &points) const;
   RowMatrix wall_response(const Targets &points, bool axis_only_last) const;
-  Vector disturbance_sources(const Interaction &shape, const Vector &strength, const Vector *velocity) const;
   Matrix membrane_operator(const Interaction &shape) const;
   Vector apply_membrane_operator(const Interaction &shape, const Vector &velocity) const;
   Vector membrane_velocity(const Interaction &shape, const Vector &right, Memory &memory) const;

@@ -43,11 +43,11 @@ std::vector<Station> stations(double from, double spacing, std::optional<double>
   std::sort(list.begin(), list.end(), [](const Station &a, const Station &b) { return a.value < b.value; });
   std::vector<Station> merged;
   for (const Station &station : list) {
-    if (merged.empty() || station.value - merged.back().value > 1e-9)
+    if (merged.empty() || station.value - merged.back().value > 1e-6 * spacing)
       merged.push_back(station);
-    else
-      merged.back() = {merged.back().value, merged.back().profile || station.profile,
-                       merged.back().end || station.end};
+    else // what was asked for tells the value, not the grid
+      merged.back() = {station.profile ? station.value : merged.back().value,
+                       merged.back().profile || station.profile, merged.back().end || station.end};
   }
   return merged;
 }
@@ -83,13 +83,9 @@ public:
   March(const Case &physics, const Checkpoint &from, const Control &control, Watch watch)
       : physics_(physics), control_(control), watch_(watch), dynamics_(make_dynamics(physics)),
         gauge_(physics, dynamics_.membrane), record_(from) {
-    if (record_.position.size() == 0) {
-      record_.position = dynamics_.start;
-      record(0, dynamics_.start, true);
-    }
+    const Vector &start = started() ? record_.position : dynamics_.start;
     const bool by_position = physics.until.x_g.has_value();
-    by_x_g_ = stations(gauge_.centre(record_.position), row_spacing, physics.until.x_g,
-                       physics.output.profiles_at_x_g);
+    by_x_g_ = stations(gauge_.centre(start), row_spacing, physics.until.x_g, physics.output.profiles_at_x_g);
     const double end = physics.until.time.value_or(std::numeric_limits<double>::infinity());
     by_time_ = stations(record_.time, by_position ? end : end / rows_in_time, physics.until.time,
                         physics.output.profiles_at_time);
@@ -98,10 +94,14 @@ public:
   Outcome run() {
     Outcome outcome;
     try {
+      if (!started()) {
+        record_.position = dynamics_.start;
+        record(0, dynamics_.start, true);
+      }
       outcome.status = physics_.time.scheme == Scheme::euler ? run_euler() : run_bdf();
     } catch (const NumericsFailure &failure) {
       outcome.status = failure.kind == "unbounded" ? Status::unbounded : Status::failed;
-      const SeriesRow &last = record_.series.back();
+      const SeriesRow last = record_.series.empty() ? SeriesRow{} : record_.series.back();
       outcome.failure = failure.kind;
       outcome.message = fmt::format("{} (after t = {:.6g}, x_g = {:.6g}); {}", failure.what(), last.time,
                                     last.x_g, failure.advice);
@@ -111,6 +111,8 @@ public:
   }
 
 private:
+  bool started() const { return record_.position.size() > 0; }
+
   Status run_euler() {
     for (;;) {
       EulerIntegrator integrator(dynamics_, record_.time, record_.position, physics_.time.step);
@@ -121,13 +123,12 @@ private:
 
   Status run_bdf() {
     const double tolerance = choose_resolution(physics_).time_tolerance;
-    std::optional<NumericsFailure> cause; // why the last shape tried was none
     const Equations equations{[&](const Vector &position, Vector &rate) {
                                 try {
                                   rate = dynamics_.flow(position).velocity;
                                   return true;
                                 } catch (const NumericsFailure &failure) {
-                                  cause.emplace(failure);
+                                  cause_.emplace(failure);
                                   return false;
                                 }
                               },
@@ -136,15 +137,14 @@ private:
                                 return jacobian.allFinite();
                               }};
     for (;;) {
-      cause.reset();
       dynamics_.forget();
       try {
         BdfIntegrator integrator(equations, record_.time, record_.position, tolerance);
-        if (const auto status = run_leg(integrator, 250))
+        if (const auto status = run_leg(integrator, 100))
           return *status;
       } catch (const NumericsFailure &failure) {
-        if (failure.kind == "step" && cause)
-          throw NumericsFailure(*cause);
+        if (failure.kind == "step" && cause_)
+          throw NumericsFailure(*cause_);
         throw;
       }
     }
@@ -157,6 +157,7 @@ private:
     for (int k = 0; k < steps; ++k) {
       if (control_.interrupted && control_.interrupted())
         return Status::interrupted;
+      cause_.reset();
       integrator.step();
       ++record_.steps;
       if (record_due(integrator))
@@ -259,6 +260,7 @@ private:
   Dynamics dynamics_;
   Gauge gauge_;
   Checkpoint record_;
+  std::optional<NumericsFailure> cause_; // why a shape that the present step tried is no capsule in the pore
   std::vector<Station> by_x_g_, by_time_;
   std::size_t next_x_g_ = 0, next_time_ = 0;
 };
@@ -271,6 +273,7 @@ Case companion(const Case &physics) {
   coarse.mesh.membrane = 3 * choose_resolution(physics).membrane_nodes / 4;
   if (physics.mesh.wall > 0)
     coarse.mesh.wall = 3 * physics.mesh.wall / 4;
+  coarse.time.step = 2 * physics.time.step;
   coarse.time.tolerance = 5 * choose_resolution(physics).time_tolerance;
   return coarse;
 }
@@ -313,6 +316,8 @@ Outcome march(const Case &physics, const Checkpoint &from, const Control &contro
     outcome.status = Status::interrupted;
   else if (second.status == Status::reached)
     outcome.error_estimate = differences(outcome.last.series, second.last.series);
+  else
+    outcome.message = "no error estimate, because the coarse companion failed: " + second.message;
   return outcome;
 }
 

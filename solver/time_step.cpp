@@ -131,16 +131,4 @@ Vector BdfIntegrator::state_at(double time) const {
   return state;
 }
 
-long BdfIntegrator::rate_evaluations() const {
-  long count = 0;
-  CVodeGetNumRhsEvals(memory_->cvode, &count);
-  return count;
-}
-
-long BdfIntegrator::jacobian_evaluations() const {
-  long count = 0;
-  CVodeGetNumJacEvals(memory_->cvode, &count);
-  return count;
-}
-
 } // namespace capsule

@@ -8,7 +8,7 @@
 namespace capsule {
 
 struct Equations {
-  // dy/dt; nullopt-like false: the state is out of the domain, and a shorter step may stay inside.
+  // dy/dt; false where the state is out of the domain and a shorter step may stay inside
   std::function<bool(const Vector &state, Vector &rate)> rate;
   std::function<bool(const Vector &state, Matrix &jacobian)> jacobian;
 };
@@ -29,8 +29,6 @@ public:
   double previous_time() const;
   // State at a time of the last step, by the integrator's own interpolant.
   Vector state_at(double time) const;
-  long rate_evaluations() const;
-  long jacobian_evaluations() const;
 
 private:
   struct Memory;

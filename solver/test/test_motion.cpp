@@ -66,29 +66,80 @@ BOOST_AUTO_TEST_CASE(small_deformation_in_extension) {
   }
 }
 
-// Stopped right after any checkpoint and started from it, a march gives the same bits.
+// Stopped right after any checkpoint and started from it, a march gives the same bits; with lambda != 1 it
+// carries an inverse from shape to shape.
 BOOST_AUTO_TEST_CASE(a_resumed_march_is_the_same) {
-  const Case physics = short_entrance();
-  const Outcome whole = march(physics, {}, {});
-  BOOST_REQUIRE(whole.status == Status::reached);
+  for (const double viscosity_ratio : {1.0, 5.0}) {
+    Case physics = short_entrance();
+    physics.flow.viscosity_ratio = viscosity_ratio;
+    const Outcome whole = march(physics, {}, {});
+    BOOST_REQUIRE((whole.status == Status::reached));
 
-  Checkpoint saved;
-  bool stop = false;
-  Control control;
-  control.save = [&](const Checkpoint &checkpoint) {
-    saved = checkpoint;
-    stop = true;
-  };
-  control.interrupted = [&] { return stop; };
-  BOOST_REQUIRE(march(physics, {}, control).status == Status::interrupted);
-  const Outcome resumed = march(physics, saved, {});
-  BOOST_REQUIRE(resumed.status == Status::reached);
-  BOOST_REQUIRE(resumed.last.series.size() == whole.last.series.size());
-  for (std::size_t k = 0; k < whole.last.series.size(); ++k) {
-    BOOST_TEST(resumed.last.series[k].time == whole.last.series[k].time);
-    BOOST_TEST(resumed.last.series[k].pressure_drop == whole.last.series[k].pressure_drop);
+    Checkpoint saved;
+    bool stop = false;
+    Control control;
+    control.save = [&](const Checkpoint &checkpoint) {
+      saved = checkpoint;
+      stop = true;
+    };
+    control.interrupted = [&] { return stop; };
+    BOOST_REQUIRE((march(physics, {}, control).status == Status::interrupted));
+    const Outcome resumed = march(physics, saved, {});
+    BOOST_REQUIRE((resumed.status == Status::reached));
+    BOOST_TEST(resumed.last.steps == whole.last.steps);
+    BOOST_REQUIRE(resumed.last.series.size() == whole.last.series.size());
+    for (std::size_t k = 0; k < whole.last.series.size(); ++k) {
+      BOOST_TEST(resumed.last.series[k].time == whole.last.series[k].time);
+      BOOST_TEST(resumed.last.series[k].pressure_drop == whole.last.series[k].pressure_drop);
+      BOOST_TEST(resumed.last.series[k].max_radial_velocity == whole.last.series[k].max_radial_velocity);
+    }
+    BOOST_TEST((resumed.last.position - whole.last.position).cwiseAbs().maxCoeff() == 0);
   }
-  BOOST_TEST((resumed.last.position - whole.last.position).cwiseAbs().maxCoeff() == 0);
+}
+
+// The estimate bounds the distance to a much finer march, for the error-controlled scheme and for Euler's.
+BOOST_AUTO_TEST_CASE(error_estimates_bound_the_error) {
+  Case physics = short_entrance();
+  physics.until.x_g = -1.5;
+  physics.mesh.membrane = 40;
+  const double exact = march(physics, {}, {}).last.series.back().pressure_drop;
+  for (const Scheme scheme : {Scheme::bdf, Scheme::euler}) {
+    Case coarse = physics;
+    coarse.mesh.membrane = 20;
+    coarse.time.scheme = scheme;
+    coarse.time.step = 0.004;
+    coarse.time.tolerance = 1e-5;
+    const Outcome outcome = march(coarse, {}, {});
+    BOOST_REQUIRE((outcome.status == Status::reached));
+    const double error = std::abs(outcome.last.series.back().pressure_drop - exact);
+    BOOST_TEST(error < 1.5 * outcome.error_estimate.at("pressure_drop"));
+    BOOST_TEST(error > 0.002 * outcome.error_estimate.at("pressure_drop"));
+  }
+}
+
+// Before tensions build up the sphere deforms like a viscous inclusion: the strain inside is 5/(2 lambda + 3)
+// of the flow's, so that D = (15/4) t/(2 lambda + 3).
+BOOST_AUTO_TEST_CASE(first_deformation_is_that_of_a_viscous_inclusion) {
+  for (const double viscosity_ratio : {0.2, 1.0, 10.0}) {
+    Case physics = in_extension(LawName::neo_hookean, 0, 100, viscosity_ratio);
+    physics.until.time = 1e-3;
+    const double deformation = march(physics, {}, {}).last.series.back().deformation;
+    const double inclusion = 3.75e-3 / (2 * viscosity_ratio + 3);
+    BOOST_TEST(std::abs(deformation - inclusion) < 2e-3 * inclusion);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_membrane_at_the_exit_stops_the_march) {
+  Case physics = short_entrance();
+  physics.pore.shape = PoreShape::tube;
+  physics.pore.entrance_distance = 3;
+  physics.pore.exit_x = 4;
+  physics.capsule.start_x = 1;
+  physics.until.x_g = 3.5;
+  physics.time.tolerance = 1e-6;
+  const Outcome outcome = march(physics, {}, {});
+  BOOST_TEST((outcome.status == Status::failed));
+  BOOST_TEST(outcome.failure == "exit");
 }
 
 BOOST_AUTO_TEST_CASE(wrinkles_stop_a_membrane_without_bending_stiffness) {

@@ -1,0 +1,108 @@
+// What a row reports, on shapes and velocities for which it is known.
+#include "observables.hpp"
+#include <boost/test/unit_test.hpp>
+#include <numbers>
+
+using namespace capsule;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Case sphere_in_pore(double radius, double start_x) {
+  Case physics;
+  physics.capsule.radius = radius;
+  physics.capsule.start_x = start_x;
+  physics.flow.capillary_number = 0.1;
+  return physics;
+}
+
+struct Body {
+  MeridianBasis basis;
+  Membrane membrane;
+  Gauge gauge;
+};
+
+Body body(const Case &physics, int nodes) {
+  const MeridianBasis basis = spectral_basis(nodes);
+  const Membrane membrane = make_membrane(physics, basis, basis.nodes, basis.weights);
+  return {basis, membrane, Gauge(physics, membrane)};
+}
+
+Vector moved(const Vector &reference, double x) {
+  Vector position = reference;
+  position.head(reference.size() / 2).array() += x;
+  return position;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(observables)
+
+BOOST_AUTO_TEST_CASE(sphere_in_the_tube) {
+  const double a = 0.7;
+  const Body b = body(sphere_in_pore(a, -4), 24);
+  const Vector position = moved(b.membrane.reference, 5);
+  // v = (u + s (x - 5), c r): flux through the sphere moves its centre by u, with c = -s/2 its volume stays.
+  const double u = 1.3;
+  const double s = 0.2;
+  const Eigen::Index n = b.basis.size();
+  Vector velocity(2 * n);
+  velocity << u + s * (position.head(n).array() - 5), -s / 2 * position.tail(n).array();
+  const SeriesRow row = b.gauge.row(2, position, velocity);
+  BOOST_TEST(std::abs(row.x_g - 5) < 1e-12);
+  BOOST_TEST(std::abs(row.v_g - u) < 1e-12);
+  BOOST_TEST(std::abs(row.min_film - (1 - a)) < 1e-9);
+  BOOST_TEST(std::abs(row.length - 2 * a) < 1e-9);
+  BOOST_TEST(std::abs(row.deformation) < 1e-9);
+  BOOST_TEST(std::abs(row.max_stretch - 1) < 1e-10);
+  BOOST_TEST(std::abs(row.volume_change) < 1e-12);
+  BOOST_TEST(std::abs(row.area_change) < 1e-12);
+  BOOST_TEST(std::abs(row.max_axial_residual - s * a * std::cos(b.basis.nodes[0])) < 1e-12);
+  BOOST_TEST(row.dents == 0);
+  BOOST_TEST(row.roughness < 1e-10);
+  BOOST_TEST(std::abs(b.gauge.volume(position) - 4.0 / 3 * pi * a * a * a) < 1e-12);
+}
+
+// In the reservoir the nearest point of the wall is the lip's side of the hyperbola; brute force over it.
+BOOST_AUTO_TEST_CASE(film_in_the_mouth) {
+  const double a = 0.8;
+  const double centre = -1.1;
+  const Body b = body(sphere_in_pore(a, centre), 48);
+  double nearest = 10;
+  const double slope = std::tan(78.5 * pi / 180);
+  for (int i = 0; i <= 40000; ++i) {
+    const double x = -2 + i * 1e-4;
+    const double r = x < 0 ? std::sqrt(1 + x * x * slope * slope) : 1;
+    nearest = std::min(nearest, std::hypot(x - centre, r) - a);
+  }
+  BOOST_TEST(std::abs(b.gauge.film(moved(b.membrane.reference, centre)) - nearest) < 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(dents_and_crossings_are_seen) {
+  const Body b = body(sphere_in_pore(0.8, -4), 48);
+  const Eigen::Index n = b.basis.size();
+  const Eigen::ArrayXd zeta = b.basis.nodes;
+  Vector wavy(2 * n); // a ripple of 12 waves, deep enough to turn the meridian back
+  const Eigen::ArrayXd radius = 0.8 + 0.02 * (24 * zeta).cos();
+  wavy << -radius * zeta.cos(), radius * zeta.sin();
+  const SeriesRow row = b.gauge.row(0, wavy, Vector::Zero(2 * n));
+  BOOST_TEST(row.dents == 12);
+  BOOST_TEST(!b.gauge.crosses_itself(wavy));
+  Vector looped = b.membrane.reference; // x = 4.8 z^3 - 4.4 z with z = cos(zeta) meets itself at x = 0
+  looped.head(n).array() += 1.2 * (3 * zeta).cos();
+  BOOST_TEST(b.gauge.crosses_itself(looped));
+}
+
+// S runs from pole to pole, half the circumference; profiles carry the sphere's curvature.
+BOOST_AUTO_TEST_CASE(profile_of_a_sphere) {
+  const Body b = body(sphere_in_pore(0.8, -4), 32);
+  const Profile profile = b.gauge.profile(1, b.membrane.reference, Vector::Ones(64));
+  const Eigen::Index last = profile.S.size() - 1;
+  BOOST_TEST(std::abs(profile.S[last] - 0.8 * pi) < 1e-4);
+  BOOST_TEST((profile.curvature_meridional.array() - 1 / 0.8).abs().maxCoeff() < 1e-8);
+  BOOST_TEST((profile.curvature_azimuthal.array() - 1 / 0.8).abs().maxCoeff() < 1e-8);
+  BOOST_TEST(profile.tension_meridional.cwiseAbs().maxCoeff() < 1e-9);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
