@@ -50,7 +50,7 @@ struct Case {
   struct {
     Scheme scheme = Scheme::bdf;
     double step = 0;      // of Euler's scheme
-    double tolerance = 0; // relative, of the error-controlled scheme; 0: from the accuracy
+    double tolerance = 0; // absolute error of the nodes' positions in one step, in units of R_t; 0: chosen
   } time;
   struct {
     std::optional<double> x_g;

@@ -526,6 +526,27 @@ struct Builder {
     (euler ? c.time.tolerance : c.time.step) = 0;
   }
 
+  // Section 3 of the paper is one method for one flow, and alone in having elements on the exit section.
+  void check_numerics() {
+    Case &c = run.physics;
+    if (c.numerics == Numerics::standard) {
+      if (given("mesh.exit") && !swept("numerics"))
+        complain({"mesh.exit"}, "mesh.exit means nothing to numerics = \"standard\"",
+                 "leave out mesh.exit, or give numerics = \"paper\"");
+      c.mesh.exit = 0;
+      return;
+    }
+    if (c.time.scheme != Scheme::euler)
+      complain({"time.scheme", "numerics"}, "numerics = \"paper\" has no error-controlled time steps",
+               "leave out time.scheme, or set it to \"euler\"");
+    if (c.flow.type != FlowType::pore)
+      complain({"flow.type", "numerics"}, "numerics = \"paper\" computes no unbounded liquid",
+               "flow.type = \"extension\" needs numerics = \"standard\"");
+    else if (c.pore.shape != PoreShape::hyperbolic)
+      complain({"pore.shape", "numerics"}, "numerics = \"paper\" has the hyperbolic pore only",
+               "another pore.shape needs numerics = \"standard\"");
+  }
+
   void check_extension() {
     const Case &c = run.physics;
     if (c.pore.shape != PoreShape::none)
@@ -599,6 +620,7 @@ struct Builder {
   void check_physics() {
     const Case &c = run.physics;
     check_scheme();
+    check_numerics();
     if (c.flow.type == FlowType::extension) {
       check_extension();
     } else if (c.pore.shape == PoreShape::none) {
@@ -649,6 +671,16 @@ std::string name_of(const fs::path &file) {
   return (in_case_directory ? directory + "-" : "") + whole.stem().string();
 }
 
+// The input without what makes no difference to the results.
+std::string what_counts(const Case &physics) {
+  Case relevant = physics;
+  relevant.title.clear();
+  relevant.paper.clear();
+  if (physics.numerics == Numerics::paper) // its meshes and its step are given
+    relevant.accuracy = Case{}.accuracy;
+  return resolved_toml(relevant);
+}
+
 } // namespace
 
 CaseInput read_case(const fs::path &path, const std::vector<std::string> &overrides) {
@@ -681,13 +713,14 @@ std::string resolved_toml(const Case &physics) {
   return text;
 }
 
+bool same_input(const Case &a, const Case &b) {
+  return what_counts(a) == what_counts(b);
+}
+
 std::string run_identity(const Case &physics) {
-  Case what_counts = physics;
-  what_counts.title.clear();
-  what_counts.paper.clear();
   // FNV-1a, 64 bit
   std::uint64_t hash = 14695981039346656037ull;
-  for (const char c : fmt::format("{}\n{}", build_info::version, resolved_toml(what_counts)))
+  for (const char c : fmt::format("{}\n{}", build_info::source_digest, what_counts(physics)))
     hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
   return fmt::format("{:016x}", hash);
 }

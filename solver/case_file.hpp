@@ -33,8 +33,11 @@ CaseInput read_case(const std::filesystem::path &path, const std::vector<std::st
 // All keys of a run that are not chosen automatically, as a case file that gives the same run again.
 std::string resolved_toml(const Case &physics);
 
-// 16 hexadecimal digits that name what is computed and written: equal for equal resolved inputs whatever
-// their title, different for different versions of this program.
+// Whether two inputs are the same whatever their title and, with the paper's numerics, their accuracy.
+bool same_input(const Case &a, const Case &b);
+
+// 16 hexadecimal digits that name what is computed and written: equal for the same input to a program made of
+// the same sources, different otherwise.
 std::string run_identity(const Case &physics);
 
 } // namespace capsule

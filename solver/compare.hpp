@@ -1,13 +1,14 @@
 #pragma once
-// Computed against expected values. Expectations stand in tables/published.csv, one row each:
-//   id        "T2-1-vg"
-//   where     "Table 2"
-//   case      the case directory's name
-//   run       which runs of the case: "viscosity_ratio=1", several pairs with "; " between them, or empty for
-//   all quantity  of summary.json ("v_g", "status"); or of series.csv, interpolated: "x_g@time=18.7"
-//   published the value; for the status "reached" or "failed:wrinkled"
-//   allowed   distance: "0.02", or "0.1 %" of the published value; empty for the status
-//   reason    why this distance
+// Computed against expected values. Expectations stand in tables/published.csv, one row each,
+// with the columns:
+// - id: "T2-1-vg".
+// - where: "Table 2".
+// - case: the case directory's name.
+// - run: which runs of the case: "viscosity_ratio=1", several pairs with "; " between them, or empty for all.
+// - quantity: of summary.json ("v_g", "status"); or of series.csv, interpolated: "x_g@time=18.7".
+// - published: the value; for the status "reached" or "failed:wrinkled".
+// - allowed: the distance, "0.02", or "0.1 %" of the published value; empty for the status.
+// - reason: why this distance.
 #include "run.hpp"
 #include <filesystem>
 #include <optional>

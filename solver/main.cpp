@@ -176,10 +176,10 @@ void add_case(CLI::App &command, Arguments &arguments) {
       .add_option("--set", arguments.overrides,
                   "a key's value instead of the file's, as key=value; may be repeated")
       ->allow_extra_args(false);
-  command.add_option(
-      "--out", arguments.out,
-      "where results go and are looked for; without it results/<case>, whose runs are shared between "
-      "cases through results/runs");
+  command.add_option("--out", arguments.out,
+                     "where results go and are looked for, those of another version too; without it "
+                     "results/<case>, whose runs are shared between "
+                     "cases through results/runs");
 }
 
 void add_computing(CLI::App &command, Arguments &arguments) {

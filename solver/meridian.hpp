@@ -4,13 +4,11 @@
 // and v_r odd in zeta at both poles. A basis turns nodal values into values and derivatives (in zeta)
 // anywhere:
 //   f(points) = even(points, 0) * f(nodes),  f''(points) = even(points, 2) * f(nodes)
-//   spectral  cos(k zeta), k < N, and sin(k zeta), 1 <= k <= N, on the N Gauss-Legendre colatitudes (no node
-//   at a
-//             pole): exponential accuracy on smooth shapes
-//   spline    B-splines of odd degree on N + 1 equidistant nodes, poles included, with the parities as end
-//   conditions
-//             (eqs. 19-26): even functions have no odd, odd functions no even derivatives below the degree at
-//             the poles; order degree + 1 for the value, one less for each derivative
+// - The spectral basis: cos(k zeta), k < N, and sin(k zeta), 1 <= k <= N, on the N Gauss-Legendre
+//   colatitudes (no node at a pole). Exponential accuracy on smooth shapes.
+// - The spline basis: B-splines of odd degree on N + 1 equidistant nodes, poles included, with the parities as
+//   end conditions (eqs. 19-26): even functions have no odd, odd functions no even derivatives below the
+//   degree at the poles. Order degree + 1 for the value, one less for each derivative.
 // An odd function vanishes at the poles: with splines, its nodal values there must be zero.
 // A curve with two ends, such as the pore's wall, has the plain cubic spline OpenSpline.
 // All throw std::invalid_argument when nodes are too few or not ascending, or points lie outside.

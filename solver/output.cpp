@@ -282,6 +282,7 @@ Json provenance_json(const Case &physics, const Effort &effort) {
   json["identity"] = run_identity(physics);
   json["version"] = build_info::version;
   json["git_commit"] = build_info::git_commit;
+  json["sources"] = build_info::source_digest;
   json["compiler"] = build_info::compiler;
   json["flags"] = build_info::flags;
   json["libraries"] = {
@@ -485,8 +486,24 @@ bool is_finished(const fs::path &directory, const std::string &identity) {
   std::error_code ignored;
   if (!fs::exists(directory / "summary.json", ignored))
     return false;
-  const auto json = read_json(directory / "run.json");
-  return json && json->value("identity", "") == identity;
+  const fs::path file = directory / "run.json";
+  const auto json = read_json(file);
+  try {
+    return json && json->value("identity", "") == identity;
+  } catch (const Json::exception &error) {
+    throw FileError(fmt::format("cannot use '{}': {}; run with --fresh", file.string(), error.what()));
+  }
+}
+
+bool is_finished_input(const fs::path &directory, const Case &physics) {
+  std::error_code ignored;
+  if (!fs::exists(directory / "summary.json", ignored) || !fs::exists(directory / "resolved.toml", ignored))
+    return false;
+  try {
+    return same_input(read_case(directory / "resolved.toml").runs.at(0).physics, physics);
+  } catch (const InputError &) { // an input that is none any more
+    return false;
+  }
 }
 
 void remove_results(const fs::path &directory) {

@@ -54,6 +54,8 @@ struct Summary {
 Summary read_summary(const std::filesystem::path &directory);
 // Whether the directory holds the finished run of this identity.
 bool is_finished(const std::filesystem::path &directory, const std::string &identity);
+// Whether the directory holds a finished run of this input, made by whatever version of the program.
+bool is_finished_input(const std::filesystem::path &directory, const Case &physics);
 
 // Takes away the results of whatever run the directory holds, the summary first, and what a killed process
 // left.

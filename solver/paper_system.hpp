@@ -7,11 +7,11 @@
 //   points, the logarithm the 12-point rule for it. The entrance section S_E carries neither traction nor a
 //   contribution of its velocity.
 // Where the paper is silent:
-//   membrane nodes  equidistant in the parameter zeta of the ellipse, hence denser where it is curved; Table
-//   1's
-//                   Delta zeta = pi/N_M says the same
-//   wall nodes      sizes grow linearly with the distance to the lip, h = h_0 + g a; in the tube they are
-//   bounded exit nodes      equidistant corner (L_P, 1) belongs to the wall
+// - The membrane's nodes are equidistant in the parameter zeta of the ellipse, hence denser where it is
+//   curved; Table 1's Delta zeta = pi/N_M says the same.
+// - The sizes of the wall's elements grow linearly with the distance to the lip, h = h_0 + g a; in the tube
+//   they are bounded.
+// - The exit's nodes are equidistant; the corner (L_P, 1) belongs to the wall.
 // Positions and velocities are nodal, 2(N_M + 1): axial, then radial.
 #include "case.hpp"
 #include "flow_state.hpp"

@@ -1,4 +1,5 @@
 #include "run.hpp"
+#include "failure.hpp"
 #include "progress.hpp"
 #include "resolution.hpp"
 #include "workers.hpp"
@@ -7,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <exception>
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -69,6 +71,13 @@ fs::path home_of(const RunInput &run, const RunOptions &options) {
   return options.pool.empty() ? directory_of(run, options) : options.pool / run_identity(run.physics);
 }
 
+// What lies in the pool is of this program; a directory that the user named holds what its input says.
+bool is_there(const RunInput &run, const RunOptions &options) {
+  const fs::path home = home_of(run, options);
+  return options.pool.empty() ? is_finished_input(home, run.physics)
+                              : is_finished(home, run_identity(run.physics));
+}
+
 // What came of a run.
 enum Course { interrupted, computed, found };
 
@@ -124,7 +133,9 @@ struct Campaign {
   Course march_in(const fs::path &home, std::size_t index) {
     const RunInput &run = input.runs[index];
     const std::string identity = run_identity(run.physics);
-    const auto saved = options.fresh ? std::nullopt : read_checkpoint(home, identity);
+    if (options.fresh)
+      remove_checkpoint(home);
+    const auto saved = read_checkpoint(home, identity);
     SavedRun latest = saved.value_or(SavedRun{});
     if (!saved)
       latest.effort.started = fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::now()));
@@ -167,7 +178,7 @@ struct Campaign {
     const DirectoryLock lock(home);
     if (!wait_for(lock, run))
       return interrupted;
-    const bool there = !options.fresh && is_finished(home, run_identity(run.physics));
+    const bool there = !options.fresh && is_there(run, options);
     const Course course = there ? found : march_in(home, index);
     if (there)
       remove_checkpoint(home); // of a process that was killed when it was nearly done
@@ -192,8 +203,16 @@ struct Campaign {
   }
 
   void one_after_the_other() {
+    std::exception_ptr bad_input;
     for (std::size_t i = 0; i < results.size() && !stops(); ++i)
-      finish(i, compute_run(i));
+      try {
+        finish(i, compute_run(i));
+      } catch (const InputError &) { // of this run alone
+        if (!bad_input)
+          bad_input = std::current_exception();
+      }
+    if (bad_input)
+      std::rethrow_exception(bad_input);
   }
 
   void side_by_side() {
@@ -225,7 +244,7 @@ std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options
 RunState state_of(const RunInput &run, const RunOptions &options) {
   const fs::path home = home_of(run, options);
   const std::string identity = run_identity(run.physics);
-  if (is_finished(home, identity))
+  if (is_there(run, options))
     return {true, 1, read_summary(home).quantities.at("wall_seconds")};
   const auto saved = read_checkpoint(home, identity);
   if (!saved)

@@ -15,6 +15,8 @@ using March = std::function<Outcome(const Case &, const Checkpoint &, const Cont
 
 struct RunOptions {
   // Results go to directory/summary.json, or to directory/<name of the run>/summary.json with a sweep.
+  // Without a pool, finished runs there are used again if their input is the same, whatever version
+  // of the program made them.
   std::filesystem::path directory;
   // Runs that several cases share are computed in pool/<identity> and appear in `directory` too; empty:
   // computed there.
@@ -33,7 +35,7 @@ struct RunResult {
 };
 
 // In the order of the case's runs. Waits for runs that another process computes at the moment. Throws
-// FileError.
+// FileError, and an InputError of one run after the others have been computed.
 std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options, const March &march);
 
 // What there is of a run before it is computed.

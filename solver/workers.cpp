@@ -20,7 +20,7 @@
 namespace capsule {
 namespace {
 
-enum ExitCode { done = 0, file_error = 4, other_error = 5 };
+enum ExitCode { done = 0, input_error = 2, file_error = 4, other_error = 5 };
 
 void keep_text(const char *text, char (&place)[1000]) {
   std::strncpy(place, text, sizeof place - 1);
@@ -36,6 +36,9 @@ void keep_text(const char *text, char (&place)[1000]) {
   int code = done;
   try {
     crew.news(index).result = work.task(index);
+  } catch (const InputError &error) {
+    keep_text(error.what(), crew.news(index).error);
+    code = input_error;
   } catch (const FileError &error) {
     keep_text(error.what(), crew.news(index).error);
     code = file_error;
@@ -52,6 +55,8 @@ std::exception_ptr failure_of(int status, const char *error) {
     return std::make_exception_ptr(
         std::runtime_error(fmt::format("a run's process was ended by signal {} ({})", WTERMSIG(status),
                                        strsignal(WTERMSIG(status))))); // NOLINT(concurrency-mt-unsafe)
+  if (WEXITSTATUS(status) == input_error)
+    return std::make_exception_ptr(InputError(error));
   if (WEXITSTATUS(status) == file_error)
     return std::make_exception_ptr(FileError(error));
   if (WEXITSTATUS(status) != done)
@@ -75,14 +80,17 @@ Crew::~Crew() {
 }
 
 void run_in_processes(const Work &work, Crew &crew) {
+  // Where it is inherited as ignored, children vanish without a status.
+  std::signal(SIGCHLD, SIG_DFL);
   const pid_t parent = getpid();
   std::map<pid_t, std::size_t> children;
   std::exception_ptr first_failure;
   std::size_t next = 0;
-  const auto fail = [&](std::exception_ptr failure) {
+  const auto fail = [&](std::exception_ptr failure, bool of_this_task_alone = false) {
     if (!first_failure)
       first_failure = std::move(failure);
-    crew.stop();
+    if (!of_this_task_alone)
+      crew.stop();
   };
   while (!children.empty() || (next < work.tasks && !crew.stops())) {
     if (children.size() < work.jobs && next < work.tasks && !crew.stops()) {
@@ -101,13 +109,17 @@ void run_in_processes(const Work &work, Crew &crew) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     for (auto child = children.begin(); child != children.end();) {
       int status = 0;
-      if (waitpid(child->first, &status, WNOHANG) != child->first) {
+      const pid_t ended = waitpid(child->first, &status, WNOHANG);
+      if (ended == 0 || (ended < 0 && errno == EINTR)) {
         ++child;
         continue;
       }
       Crew::News &news = crew.news(child->second);
-      if (auto failure = failure_of(status, news.error))
-        fail(std::move(failure));
+      if (ended < 0)
+        fail(std::make_exception_ptr(
+            std::runtime_error(fmt::format("a run's process is lost: {}", std::strerror(errno)))));
+      else if (auto failure = failure_of(status, news.error))
+        fail(std::move(failure), WIFEXITED(status) && WEXITSTATUS(status) == input_error);
       else
         work.finished(child->second, news.result);
       child = children.erase(child);

@@ -45,7 +45,8 @@ struct Work {
 };
 
 // All tasks in order, as long as the crew is not asked to stop. A FileError or another failure of one task
-// stops the others and is thrown when all have ended; so is a task's end by a signal.
+// stops the others and is thrown when all have ended; so is a task's end by a signal. An InputError is thrown
+// then too, but stops no other task.
 void run_in_processes(const Work &work, Crew &crew);
 
 } // namespace capsule

@@ -76,6 +76,15 @@ echo "inherit = 'none.toml'
 $good" | bad "1:11: error: .*none.toml': no such file"
 echo "inherit = 'case.toml'
 $good" | bad "1:11: error: .* inherits from itself"
+echo "$good
+mesh.exit = 20" | bad '4:13: error: mesh.exit means nothing to numerics = "standard"'
+for wrong in 'time.scheme = "bdf"' 'pore.shape = "tube"' 'flow.type = "extension"'; do
+  printf '%s\nnumerics = "paper"\n%s\n' "$good" "$wrong" | bad '5:[0-9]+: error: numerics = "paper" '
+done
+echo "$good
+pore.entrance_distance = 1" | bad '4:26: error: .* is out of range'
+echo "$good
+flow.viscosity_ratio = 1e-5" | bad '4:24: error: .* is out of range'
 rm -r bad
 
 expect 2 '^none:1:1: error: no such file' "$capsule" run none

@@ -171,6 +171,9 @@ BOOST_AUTO_TEST_CASE(identity_knows_what_counts) {
   };
   BOOST_TEST(identity({}).size() == 16u);
   BOOST_TEST(identity({}) == identity({"title=other", "paper=Figure 7", "flow.viscosity_ratio=1"}));
+  // The paper's preset chooses nothing by the accuracy.
+  BOOST_TEST(identity({"numerics=paper"}) == identity({"numerics=paper", "accuracy=1e-5"}));
+  BOOST_TEST(identity({"numerics=paper"}) != identity({"numerics=paper", "mesh.exit=5"}));
   // Every key that is not a title makes another run.
   const std::vector<std::string> changes{"numerics=paper",
                                          "accuracy=1e-5",
@@ -188,7 +191,6 @@ BOOST_AUTO_TEST_CASE(identity_knows_what_counts) {
                                          "flow.viscosity_ratio=5",
                                          "mesh.membrane=50",
                                          "mesh.wall=50",
-                                         "mesh.exit=5",
                                          "time.scheme=euler",
                                          "time.tolerance=1e-7",
                                          "until.x_g=3",
@@ -270,6 +272,9 @@ BOOST_AUTO_TEST_CASE(out_of_range) {
   check_errors("accuracy = 1e-9\n" + sphere, {"1:12: error: accuracy = 1e-9 is out of range"});
   check_errors(sphere + "[pore]\nopening_angle_deg = 90.01",
                {"10:21: error: pore.opening_angle_deg = 90.01 is out"});
+  check_errors(sphere + "[pore]\nentrance_distance = 1",
+               {"10:21: error: pore.entrance_distance = 1 is out of range"});
+  check_errors(sphere + "viscosity_ratio = 1.1e4", {"9:19: error: flow.viscosity_ratio = 11000 is out of"});
   check_errors(sphere + "viscosity_ratio = 0", {"9:19: error: flow.viscosity_ratio = 0 is out of range"});
   check_errors(sphere + "[mesh]\nwall = 99999999999",
                {"10:8: error: mesh.wall = 99999999999 is out of range"});
@@ -438,6 +443,14 @@ BOOST_AUTO_TEST_CASE(geometry_that_cannot_be) {
   check_contains(message({"pore.shape=none"}), "--set:1:12: error: a pore flow needs a pore");
   check_contains(message({"time.step=1e-3"}),
                  "--set:1:11: error: time.step means nothing to time.scheme = \"bdf\"");
+  check_contains(message({"mesh.exit=20"}),
+                 "--set:1:11: error: mesh.exit means nothing to numerics = \"standard\"");
+  check_contains(message({"numerics=paper", "time.scheme=bdf"}),
+                 "--set:1:13: error: numerics = \"paper\" has no error-controlled time steps");
+  check_contains(message({"numerics=paper", "pore.shape=tube"}),
+                 "--set:1:12: error: numerics = \"paper\" has the hyperbolic pore only");
+  check_contains(message({"numerics=paper", "flow.type=extension", "until.time=1"}),
+                 "--set:1:11: error: numerics = \"paper\" computes no unbounded liquid");
   check_contains(message({"flow.type=extension"}), "--set:1:11: error: an extension needs until.time");
   check_contains(message({"flow.type=extension", "until.time=1"}),
                  ":3:10: error: in an extension lengths are scaled");

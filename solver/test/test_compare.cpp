@@ -127,6 +127,9 @@ BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
   check_contains(mistake_in(header + "a,T,x,,v_g,0,1 %,\n"), "nothing can be relative");
   check_contains(mistake_in(header + "a,T,x,viscosity=1,v_g,1,1 %,\n"), "unknown key 'viscosity'");
   check_contains(mistake_in(header + "a,T,x,all,v_g,1,1 %,\n"), "the run 'all' is not of the form");
+  const std::string all = mistake_in("id\n\na,T,x,,v_g,high,1 %,\na,T,fig,,v_g,1,0,\n");
+  for (const char *place : {":1:1: error: ", ":2:1: error: ", ":3:1: error: ", ":4:1: error: "})
+    check_contains(all, place);
   BOOST_TEST(mistake_in(header + "a,T,fig,,v_g,1,1 %,\r\n") == "no error");
 }
 

@@ -132,6 +132,16 @@ BOOST_AUTO_TEST_CASE(damaged_checkpoint_is_named) {
              std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(damaged_provenance_is_named) {
+  const TemporaryDirectory directory;
+  directory.write("summary.json", "{}");
+  for (const char *damaged : {"[]", "3", "{\"identity\": 3}"}) {
+    const auto file = directory.write("run.json", damaged);
+    BOOST_TEST(failure_of([&] { is_finished(directory.path, "abc"); }).find(file.string()) !=
+               std::string::npos);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(files_are_whole_or_not_there) {
   const TemporaryDirectory directory;
   const fs::path file = directory.path / "a.txt";
@@ -181,6 +191,10 @@ BOOST_AUTO_TEST_CASE(results_of_a_run) {
   write_results(directory.path, physics, outcome_with(last), {"2002-01-01T00:00:00Z", 1.5, 2.5});
   BOOST_TEST(is_finished(directory.path, run_identity(physics)));
   BOOST_TEST(!is_finished(directory.path, "another"));
+  BOOST_TEST(is_finished_input(directory.path, physics));
+  Case longer = physics;
+  longer.until.time = 1000;
+  BOOST_TEST(!is_finished_input(directory.path, longer));
   BOOST_TEST(!fs::exists(directory.path / "checkpoint.json"));
 
   const Summary summary = read_summary(directory.path);

@@ -163,6 +163,61 @@ BOOST_AUTO_TEST_CASE(finished_runs_are_used_again) {
   BOOST_TEST(counted.calls == 5);
 }
 
+BOOST_AUTO_TEST_CASE(runs_of_another_program_count_only_where_the_user_says) {
+  const TemporaryDirectory directory;
+  Counted counted;
+  const CaseInput input = case_with({1});
+  const RunOptions named{.directory = directory.path / "a"};
+  const RunOptions pooled{.directory = directory.path / "b", .pool = directory.path / "runs"};
+  compute(input, named, counted.march);
+  compute(input, pooled, counted.march);
+  BOOST_TEST(counted.calls == 2);
+  directory.write("a/run.json", "{\"identity\": \"of another program\"}");
+  directory.write("runs/" + run_identity(input.runs[0].physics) + "/run.json", "{}");
+  compute(input, named, counted.march);
+  BOOST_TEST(counted.calls == 2);
+  compute(input, pooled, counted.march);
+  BOOST_TEST(counted.calls == 3);
+}
+
+BOOST_AUTO_TEST_CASE(a_fresh_start_forgets_the_checkpoint) {
+  const TemporaryDirectory directory;
+  RunOptions options{.directory = directory.path, .fresh = true};
+  const auto checkpoint = directory.write("checkpoint.json", "damaged");
+  bool there = true;
+  const March march = [&](const Case &physics, const Checkpoint &from, const Control &control) {
+    there = fs::exists(checkpoint);
+    return chaotic_march(physics, from, control);
+  };
+  compute(case_with({1}), options, march);
+  BOOST_TEST(!there);
+}
+
+BOOST_AUTO_TEST_CASE(bad_input_of_one_run_stops_no_other) {
+  const TemporaryDirectory directory;
+  const March march = [](const Case &physics, const Checkpoint &from, const Control &control) {
+    if (physics.flow.viscosity_ratio == 1)
+      throw InputError("not this one");
+    return chaotic_march(physics, from, control);
+  };
+  for (const unsigned jobs : {1u, 2u}) {
+    const RunOptions options{.directory = directory.path / std::to_string(jobs), .jobs = jobs};
+    BOOST_CHECK_EXCEPTION(
+        compute(case_with({1, 2, 3, 4}), options, march), InputError,
+        [](const InputError &error) { return std::string(error.what()) == "not this one"; });
+    for (const char *other : {"2", "3", "4"})
+      BOOST_TEST(fs::exists(options.directory / (std::string("viscosity_ratio=") + other) / "summary.json"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(children_are_seen_where_their_signal_was_ignored) {
+  const TemporaryDirectory directory;
+  std::signal(SIGCHLD, SIG_IGN);
+  const RunOptions options{.directory = directory.path, .jobs = 2};
+  for (const RunResult &result : compute(case_with({1, 2, 3}), options, chaotic_march))
+    BOOST_TEST(result.summary.has_value());
+}
+
 BOOST_AUTO_TEST_CASE(cases_share_their_runs) {
   const TemporaryDirectory directory;
   Counted counted;
