@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <sstream>
 
@@ -42,6 +43,10 @@ std::vector<std::string> split_csv(const std::string &line) {
       fields.back() += line[i];
   }
   return fields;
+}
+
+std::string csv_field(const std::string &text) {
+  return text.find(',') == std::string::npos ? text : '"' + text + '"';
 }
 
 std::string trimmed(const std::string &text) {
@@ -197,6 +202,18 @@ Comparison compare_one(const Expectation &expected, const RunResult &result) {
   return comparison;
 }
 
+using ComparisonRow = std::array<std::string, 10>;
+
+// The header, then one row per comparison.
+std::vector<ComparisonRow> comparison_rows(const std::vector<Comparison> &comparisons) {
+  std::vector<ComparisonRow> rows{{"id", "where", "run", "quantity", "computed", "own error", "published",
+                                   "distance", "allowed", "verdict"}};
+  for (const Comparison &c : comparisons)
+    rows.push_back({c.expected.id, c.expected.where, c.run, c.expected.quantity, c.computed, c.estimate,
+                    c.expected.published, c.distance, c.expected.allowed, c.agrees ? "agrees" : "DIFFERS"});
+  return rows;
+}
+
 } // namespace
 
 std::optional<fs::path> find_expectations(const fs::path &case_file) {
@@ -260,19 +277,35 @@ bool failure_is_expected(const std::vector<Comparison> &comparisons, const RunRe
 }
 
 std::string comparison_table(const std::vector<Comparison> &comparisons) {
-  using Row = std::array<std::string, 9>;
-  std::vector<Row> rows{
-      {"id", "where", "run", "quantity", "computed", "own error", "published", "distance", "allowed"}};
-  for (const Comparison &c : comparisons)
-    rows.push_back({c.expected.id, c.expected.where, c.run, c.expected.quantity, c.computed, c.estimate,
-                    c.expected.published, c.distance, c.expected.allowed});
+  const std::vector<ComparisonRow> rows = comparison_rows(comparisons);
   std::string text;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t k = 0; k < rows[i].size(); ++k) {
-      const auto wider = [k](const Row &a, const Row &b) { return a.at(k).size() < b.at(k).size(); };
-      text += fmt::format("{:<{}}  ", rows[i].at(k), std::ranges::max_element(rows, wider)->at(k).size());
+  for (const ComparisonRow &row : rows) {
+    for (std::size_t k = 0; k + 1 < row.size(); ++k) {
+      const auto wider = [k](const auto &a, const auto &b) { return a.at(k).size() < b.at(k).size(); };
+      text += fmt::format("{:<{}}  ", row.at(k), std::ranges::max_element(rows, wider)->at(k).size());
     }
-    text += i == 0 ? "\n" : comparisons[i - 1].agrees ? "agrees\n" : "DIFFERS\n";
+    text += row.back() + '\n';
+  }
+  return text;
+}
+
+std::string comparison_csv(const std::vector<Comparison> &comparisons) {
+  std::string text;
+  for (ComparisonRow row : comparison_rows(comparisons)) {
+    std::ranges::transform(row, row.begin(), csv_field);
+    text += fmt::format("{}\n", fmt::join(row, ","));
+  }
+  return text;
+}
+
+std::string comparison_markdown(const std::vector<Comparison> &comparisons) {
+  std::string text;
+  for (const ComparisonRow &row : comparison_rows(comparisons)) {
+    const bool is_header = text.empty();
+    text += fmt::format("| {} |\n", fmt::join(row, " | "));
+    if (is_header)
+      for (std::size_t k = 0; k < row.size(); ++k)
+        text += k + 1 < row.size() ? "| --- " : "| --- |\n";
   }
   return text;
 }

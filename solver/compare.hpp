@@ -46,7 +46,9 @@ std::vector<Comparison> compare(const std::vector<Expectation> &expectations,
 // Whether a failure of this run is what the table expects.
 bool failure_is_expected(const std::vector<Comparison> &comparisons, const RunResult &result);
 
-// All rows in columns.
+// All rows: in columns, as CSV, as a Markdown table.
 std::string comparison_table(const std::vector<Comparison> &comparisons);
+std::string comparison_csv(const std::vector<Comparison> &comparisons);
+std::string comparison_markdown(const std::vector<Comparison> &comparisons);
 
 } // namespace capsule

@@ -52,6 +52,7 @@ struct Arguments {
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   bool fresh = false;
   double time_limit = 0; // seconds; 0: none
+  std::string table;     // files of the comparison, without their endings
 };
 
 RunOptions run_options(const Arguments &arguments, const CaseInput &input) {
@@ -120,6 +121,10 @@ int check(const Arguments &arguments) {
     fmt::print(stderr, "warning: no expectations for {}\n", input.name);
   else
     fmt::print("\n{}\n", comparison_table(comparisons));
+  if (!arguments.table.empty()) {
+    write_atomically(arguments.table + ".csv", comparison_csv(comparisons));
+    write_atomically(arguments.table + ".md", comparison_markdown(comparisons));
+  }
   fmt::print("{}: {}: {} of {} rows agree, {} runs failed unexpectedly\n", input.name,
              failures > 0          ? "FAILS"
              : comparisons.empty() ? "NOTHING TO COMPARE"
@@ -210,6 +215,8 @@ int run_command(int argc, char **argv) {
   CLI::App &check_app =
       *app.add_subcommand("check", "compute what is missing and compare with expected values");
   add_computing(check_app, arguments);
+  check_app.add_option("--table", arguments.table, "write the comparison to TABLE.csv and TABLE.md, too")
+      ->option_text("TABLE");
   check_app.callback([&] { code = check(arguments); });
   CLI::App &show_app =
       *app.add_subcommand("show", "the resolved input of every run, and what there is of it");

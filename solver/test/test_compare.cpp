@@ -79,11 +79,17 @@ BOOST_AUTO_TEST_CASE(distances_relative_and_absolute) {
   BOOST_TEST(agrees("2.5", "0.5"));
   BOOST_TEST(!agrees("2.5", "0.49"));
   BOOST_TEST(!agrees("-2", "10 %"));
-  const auto row = compared("a,T,fig,,v_g,2.5,25 %,\n", {result_with(1, 2.0)}).at(0);
+  const auto row = compared("a,\"T, U\",fig,,v_g,2.5,25 %,\n", {result_with(1, 2.0)}).at(0);
   BOOST_TEST(row.distance == "-20 %");
   const std::string table = comparison_table({row});
   check_contains(table, "-20 %");
   check_contains(table, "agrees\n");
+  BOOST_TEST(comparison_csv({row}) ==
+             "id,where,run,quantity,computed,own error,published,distance,allowed,verdict\n"
+             "a,\"T, U\",viscosity_ratio=1,v_g,2,3e-05,2.5,-20 %,25 %,agrees\n");
+  check_contains(
+      comparison_markdown({row}),
+      "| --- |\n| a | T, U | viscosity_ratio=1 | v_g | 2 | 3e-05 | 2.5 | -20 % | 25 % | agrees |\n");
 }
 
 BOOST_AUTO_TEST_CASE(quantities_along_the_way) {
