@@ -1,0 +1,63 @@
+# The users' door. Everything else is CMake's: see CMakeLists.txt and cmake/cases.cmake.
+#   make           the solver, build/capsule
+#   make figures   every case computed, every figure and table drawn: figures/, tables/
+#   make test      unit tests and every case against its published values
+#   make help      all targets
+SHELL := /bin/bash
+
+.DEFAULT_GOAL := build
+.PHONY: help setup build figures tables test bench paper-numerics clean
+
+help:
+	@echo 'make [build]         build the solver, build/capsule'
+	@echo 'make setup           install the Debian packages of apt.txt that are missing'
+	@echo 'make figures         compute every case, draw every figure and write every table'
+	@echo 'make tables          compute every case and write every table'
+	@echo 'make test            run all tests'
+	@echo 'make bench           time the kernels'
+	@echo 'make paper-numerics  compute Table 1 again with the numerics of the paper: half an hour or more'
+	@echo 'make clean           remove what was built, computed and drawn'
+
+setup:
+	@missing=(); \
+	for package in $$(sed 's/#.*//' apt.txt); do \
+	  dpkg -s $$package 2>/dev/null | grep -q '^Status: install ok installed' || missing+=($$package); \
+	done; \
+	if (( $${#missing[@]} )); then \
+	  root=; [ $$(id -u) = 0 ] || root=sudo; \
+	  $$root apt-get update && \
+	  $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$${missing[@]}"; \
+	fi
+
+build/build.ninja: | setup
+	cmake --preset default
+
+build: build/build.ninja
+	@cmake --build build --target capsule
+
+figures: build
+	@cmake --build build --target figures
+
+tables: build
+	@cmake --build build --target tables
+
+test: build/build.ninja
+	@cmake --build build
+	@ctest --test-dir build --output-on-failure -j2
+
+# The results become data of the case, with their provenance; what ParaView reads stays in results/.
+PAPER := cases/table1-mesh/paper-numerics
+paper-numerics: build
+	@build/capsule show $(PAPER).toml | tail -n 1
+	@build/capsule run $(PAPER).toml
+	@for run in results/table1-mesh-paper-numerics/*; do \
+	  install -m 644 -D -t $(PAPER)/$${run##*/} $$run/{summary,run}.json $$run/series.csv $$run/resolved.toml; \
+	done
+
+bench: build
+	@cmake --build build --target benchmarks
+	@for program in build/bench_*; do $$program; done
+
+clean:
+	rm -rf build results figures/*/ figures/gallery.md tables/*.md
+	find tables -name '*.csv' ! -name published.csv -delete

@@ -1,0 +1,43 @@
+run(i) = "bending_ratio=".word("0 1e-9 1e-5 0.0001 0.001", i)
+name(i) = "{/:Italic δ} = ".word("0 10^{-9} 10^{-5} 10^{-4} 10^{-3}", i)
+end(i, quantity) = result(run(i), quantity)
+
+# The tensions at the rear pole of the membrane without stiffness, at x_g = 1.
+stats profiles(run(1)) using (column("S") == 0 ? at_x_g(1, "tension_meridional") : NaN) nooutput
+rear_tension = STATS_mean
+
+eval figure("fig02", 17, 6.2)
+set multiplot
+set origin 0, 0; set size 0.55, 1
+eval view(-5.2, 3, -2, 2)
+set xtics 1; set ytics 1
+positions = sprintf("-4 -1.5 %g", end(1, "x_g"))
+plot @wall, for [p in positions] for [side=-1:1:2] \
+    profiles(run(1)) using (at_x_g(p, "x")):(side * column("r")) with @capsule_fill, \
+  for [p in positions] for [side=-1:1:2] \
+    profiles(run(1)) using (at_x_g(p, "x")):(side * column("r")) with lines linetype 1
+set origin 0.56, 0; set size noratio 0.44, 1
+set xrange [0:1.2]; set yrange [*:*]
+set xlabel "{/:Italic S} / {/:Italic R}_t"; set ylabel "{/:Italic κ}_s {/:Italic R}_t"
+set xtics 0.4; set ytics autofreq
+plot profiles(run(1)) using (at_x_g(end(1, "x_g"), "S")):"curvature_meridional" with lines linetype 2 linewidth 1 dashtype 1 \
+    title sprintf("{/:Italic x}_g = %g", end(1, "x_g")), \
+  profiles(run(1)) using (at_x_g(1, "S")):"curvature_meridional" with lines linetype 1 title "{/:Italic x}_g = 1"
+unset multiplot
+print "**Figure 2.** The capsule without bending stiffness as it enters (left), and the curvature of its meridian from the", \
+  "rear pole on (right). At x_g = 1 the rear is smooth but compressed in both directions", \
+  sprintf("(both tensions are %.3f G at the pole);", rear_tension), \
+  sprintf("at x_g = %g it has wrinkled, in waves as short as the mesh allows.", end(1, "x_g"))
+
+eval figure("fig03", 12, 8)
+set xrange [-4:12]; set yrange [0:8]
+set xlabel x_g_label; set ylabel pressure_label
+set key at 11.8, 0.3 right bottom
+plot for [i=5:1:-1] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i), \
+  for [i=1:2] "+" using (end(i, "x_g")):(end(i, "pressure_drop")) every ::::0 with points linetype i pointtype 2, \
+  NaN with points linetype 1 pointtype 2 title "wrinkled"
+print "**Figure 3.** Extra pressure drop for five bending stiffnesses. Two are too small: the membrane wrinkles at", \
+  sprintf("x_g = %g and %g. Where wrinkles are prevented the stiffness has a weak effect:", end(1, "x_g"), end(2, "x_g")), \
+  sprintf("at x_g = 11.7 the pressure drop is %.4f, %.4f and %.4f", end(3, "pressure_drop"), end(4, "pressure_drop"), \
+          end(5, "pressure_drop")), \
+  "for δ = 1e-5, 1e-4 and 1e-3."

@@ -1,0 +1,64 @@
+# A directory cases/<id> with a case.toml takes part by being there:
+#   test case-<id>      computes what is missing and compares it with the case's rows of tables/published.csv
+#   test figure-<id>    draws its figures in the build directory, without a warning
+#   target table-<id>   computes what is missing and writes tables/<id>.csv and .md; all of them: tables
+#   target figure-<id>  the same, and draws figures/<id>/*; all of them, and figures/gallery.md: figures
+# Stored results cases/<id>/<name>/<run>/ of another file cases/<id>/<name>.toml have a test case-<id>-<name> and a
+# target table-<id>-<name>, which compute nothing. What is computed lies in results/ for all of them.
+find_program(GNUPLOT gnuplot REQUIRED)
+file(READ tables/published.csv PUBLISHED)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS tables/published.csv)
+
+add_custom_target(tables)
+add_custom_target(figures
+  COMMAND sh -c "for file in figures/*/*.md tables/*.md; do cat $file; echo; done > figures/gallery.md"
+  COMMENT "Writing figures/gallery.md" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} VERBATIM)
+add_dependencies(figures tables)
+
+# The test case-<name> and the target table-<name> for what `capsule check ...` compares.
+function(add_comparison name)
+  if(NOT PUBLISHED MATCHES ",${name},")
+    message(WARNING "no expectations for ${name}: add rows to tables/published.csv")
+  endif()
+  add_test(NAME case-${name} COMMAND capsule check ${ARGN} --jobs 2 WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  set_tests_properties(case-${name} PROPERTIES LABELS case PROCESSORS 2 FIXTURES_SETUP results-${name})
+  # A comparison that differs (1) and a run that fails (3) are written down like any other.
+  list(JOIN ARGN " " arguments)
+  add_custom_target(table-${name}
+    COMMAND sh -c "$<TARGET_FILE:capsule> check ${arguments} --table tables/${name} || test $? = 1 -o $? = 3"
+    COMMENT "Case ${name}" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} USES_TERMINAL VERBATIM)
+  add_dependencies(table-${name} capsule)
+  add_dependencies(tables table-${name})
+endfunction()
+
+# The test and the target figure-<id>.
+function(add_figures id)
+  if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/cases/${id}/figure.gp)
+    message(WARNING "nothing to draw for ${id}: add cases/${id}/figure.gp")
+    return()
+  endif()
+  add_test(NAME figure-${id}
+           COMMAND ${GNUPLOT} -e "case='${id}'; out='${CMAKE_CURRENT_BINARY_DIR}/figures'" figures/style.gp
+           WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  set_tests_properties(figure-${id} PROPERTIES LABELS figure FIXTURES_REQUIRED results-${id}
+                       FAIL_REGULAR_EXPRESSION "warning;undefined;cannot")
+  add_custom_target(figure-${id} COMMAND ${GNUPLOT} -e "case='${id}'; out='figures'" figures/style.gp
+    COMMENT "Drawing ${id}" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} VERBATIM)
+  add_dependencies(figure-${id} table-${id})
+  add_dependencies(figures figure-${id})
+endfunction()
+
+file(GLOB CASE_FILES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/cases cases/*/case.toml)
+foreach(file IN LISTS CASE_FILES)
+  get_filename_component(id ${file} DIRECTORY)
+  add_comparison(${id} cases/${id})
+  add_figures(${id})
+endforeach()
+
+file(GLOB STORED CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/cases cases/*/*/*/summary.json)
+list(TRANSFORM STORED REPLACE "/[^/]*/summary.json$" "")
+list(REMOVE_DUPLICATES STORED)
+foreach(directory IN LISTS STORED)
+  string(REPLACE "/" "-" name ${directory})
+  add_comparison(${name} cases/${directory}.toml --out cases/${directory} --stored)
+endforeach()

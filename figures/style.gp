@@ -1,0 +1,70 @@
+# How every figure looks: formats, font, lines, colours, the pore's wall, and where numbers are found. A case's
+# figure.gp says what is drawn and what it shows. To draw a case:
+#   gnuplot -e "case='<id>'; out='figures'" figures/style.gp
+# Scales: lengths R_t, velocities Q/(pi R_t^2), pressures mu Q/(pi R_t^3), times pi R_t^3/Q.
+
+# Results. A run is named as its directory, "viscosity_ratio=1"; "" is the only run of a case without a sweep.
+results(run) = "results/".case.(run eq "" ? "" : "/".run)
+series(run) = results(run)."/series.csv"
+profiles(run) = results(run)."/profiles.csv"
+# One number, NaN where there is none: of a summary.json, of this case's summaries and their error estimates, of
+# tables/published.csv.
+number(text) = text eq "" ? NaN : text + 0
+entry(directory, key) = number(system("awk -F'[:,]' '/^".key.":/ {printf \"%.16e\", $2}' ".directory."/summary.json"))
+result_in(directory, name) = entry(directory, "  \"".name."\"")
+result(run, name) = result_in(results(run), name)
+error_of(run, name) = entry(results(run), "    \"".name."\"")
+published(id) = number(system("awk -F, '$1 == \"".id."\" {printf \"%.16e\", $6}' tables/published.csv"))
+# In a `using`, for one profile of many: a column where x_g, or the time, has the given value.
+at_x_g(position, name) = abs(column("x_g") - position) < 1e-6 ? column(name) : NaN
+at_time(time, name) = abs(column("time") - time) < 1e-6 ? column(name) : NaN
+
+# Colours that the colour-blind tell apart (Okabe and Ito), each with its own dashes and mark.
+set linetype 1 linewidth 1.5 linecolor rgb "#000000" dashtype 1 pointtype 6
+set linetype 2 linewidth 1.5 linecolor rgb "#D55E00" dashtype (12, 4) pointtype 4
+set linetype 3 linewidth 1.5 linecolor rgb "#0072B2" dashtype (4, 3) pointtype 8
+set linetype 4 linewidth 1.5 linecolor rgb "#009E73" dashtype (10, 3, 2, 3) pointtype 12
+set linetype 5 linewidth 1.5 linecolor rgb "#CC79A7" dashtype (2, 2) pointtype 10
+wall_colour = "#D8D8D8"
+capsule_colour = "#FBE5D6"
+capsule_fill = "filledcurves closed fillstyle solid border linewidth 0.5 linecolor rgb capsule_colour"
+published_mark = "pointtype 6 pointsize 0.9"
+
+# `eval figure("fig07a", 12, 8)` opens the picture out/<id>/fig07a of so many centimetres, and the file of its caption
+# for `print`.
+pixels(centimetres) = centimetres / 2.54 * 96
+terminal(width, height) = format eq "svg" \
+  ? sprintf("set terminal svg enhanced size %.0f,%.0f font '%s,12' background '#ffffff'", pixels(width), \
+            pixels(height), "Liberation Sans, Arial, Helvetica, sans-serif") \
+  : sprintf("set terminal pngcairo enhanced size %.0f,%.0f font '%s,9' fontscale 3 linewidth 3 pointscale 3", \
+            3 * pixels(width), 3 * pixels(height), "Liberation Sans")
+figure(name, width, height) = "reset; ".terminal(width, height)."; ".defaults. \
+  sprintf("set output '%s/%s/%s.%s'; ", out, case, name, format). \
+  sprintf("set print '%s/%s/%s.md'; print '![%s](%s/%s.png)', \"\n\"", out, case, name, name, case, name)
+defaults = "set encoding utf8; set datafile separator ','; set datafile columnheaders; set datafile missing NaN; \
+  set samples 400; set angles radians; set border 3 linewidth 0.8; set tics nomirror scale 0.6; \
+  set key noautotitle Left reverse samplen 2.5 spacing 1.2;"
+
+# Names of the axes, with their scales.
+x_g_label = "{/:Italic x}_g / {/:Italic R}_t"
+x_label = "{/:Italic x} / {/:Italic R}_t"
+r_label = "{/:Italic r} / {/:Italic R}_t"
+pressure_label = "Δ{/:Italic P} / (μ{/:Italic Q}/π{/:Italic R}_t^3)"
+velocity_label = "{/:Italic v}_g / ({/:Italic Q}/π{/:Italic R}_t^2)"
+
+# The solid around the pore, eq. 1, on both sides of the axis:  plot @wall, ...
+opening_angle = 78.5 / 180 * pi
+wall_x(t) = t < 0 ? sinh(t) / tan(opening_angle) : t
+wall_r(t) = t < 0 ? cosh(t) : 1
+wall = "sample [t=-3:20] '+' using (wall_x(t)):(wall_r(t)):(10) with filledcurves linecolor rgb wall_colour, \
+               [t=-3:20] '+' using (wall_x(t)):(-wall_r(t)):(-10) with filledcurves linecolor rgb wall_colour"
+# The axes of a view along the pore, with equal scales:  eval view(left, right, bottom, top)
+view(left, right, bottom, top) = sprintf("set size ratio -1; set xrange [%g:%g]; set yrange [%g:%g]; ", \
+  left, right, bottom, top)."set xlabel x_label; set ylabel r_label"
+
+system("mkdir -p ".out."/".case)
+do for [format in "svg png"] {
+  reset; eval defaults
+  load "cases/".case."/figure.gp"
+  unset output
+}
