@@ -15,6 +15,11 @@ result_in(directory, name) = entry(directory, "  \"".name."\"")
 result(run, name) = result_in(results(run), name)
 error_of(run, name) = entry(results(run), "    \"".name."\"")
 published(id) = number(system("awk -F, '$1 == \"".id."\" {printf \"%.16e\", $6}' tables/published.csv"))
+# To plot a single point:  plot $one using (x):(y) with points
+$one << end
+x
+1
+end
 # In a `using`, for one profile of many: a column where x_g, or the time, has the given value.
 at_x_g(position, name) = abs(column("x_g") - position) < 1e-6 ? column(name) : NaN
 at_time(time, name) = abs(column("time") - time) < 1e-6 ? column(name) : NaN

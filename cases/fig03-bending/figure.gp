@@ -20,8 +20,9 @@ set origin 0.56, 0; set size noratio 0.44, 1
 set xrange [0:1.2]; set yrange [*:*]
 set xlabel "{/:Italic S} / {/:Italic R}_t"; set ylabel "{/:Italic κ}_s {/:Italic R}_t"
 set xtics 0.4; set ytics autofreq
-plot profiles(run(1)) using (at_x_g(end(1, "x_g"), "S")):"curvature_meridional" with lines linetype 2 linewidth 1 dashtype 1 \
-    title sprintf("{/:Italic x}_g = %g", end(1, "x_g")), \
+last_x_g = end(1, "x_g")
+plot profiles(run(1)) using (at_x_g(last_x_g, "S")):"curvature_meridional" with lines linetype 2 linewidth 1 dashtype 1 \
+    title sprintf("{/:Italic x}_g = %g", last_x_g), \
   profiles(run(1)) using (at_x_g(1, "S")):"curvature_meridional" with lines linetype 1 title "{/:Italic x}_g = 1"
 unset multiplot
 print "**Figure 2.** The capsule without bending stiffness as it enters (left), and the curvature of its meridian from the", \
@@ -34,7 +35,7 @@ set xrange [-4:12]; set yrange [0:8]
 set xlabel x_g_label; set ylabel pressure_label
 set key at 11.8, 0.3 right bottom
 plot for [i=5:1:-1] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i), \
-  for [i=1:2] "+" using (end(i, "x_g")):(end(i, "pressure_drop")) every ::::0 with points linetype i pointtype 2, \
+  for [i=1:2] $one using (end(i, "x_g")):(end(i, "pressure_drop")) with points linetype i pointtype 2, \
   NaN with points linetype 1 pointtype 2 title "wrinkled"
 print "**Figure 3.** Extra pressure drop for five bending stiffnesses. Two are too small: the membrane wrinkles at", \
   sprintf("x_g = %g and %g. Where wrinkles are prevented the stiffness has a weak effect:", end(1, "x_g"), end(2, "x_g")), \

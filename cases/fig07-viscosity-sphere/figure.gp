@@ -32,7 +32,7 @@ set xrange [-4:12]; set yrange [0:18]
 set xlabel x_g_label; set ylabel pressure_label
 set key at -3.7, 18 left top
 plot for [i=1:4] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i), \
-  for [i=1:4] "+" using (last_x_g):(table2(i, "dP")) every ::::0 with points linetype i @published_mark, \
+  for [i=1:4] $one using (last_x_g):(table2(i, "dP")) with points linetype i @published_mark, \
   NaN with points linetype 1 @published_mark title "published, Table 2"
 set origin 0.47, 0.18; set size 0.5, 0.46
 set xrange [9:12]; set yrange [13.6:14.6]
@@ -54,7 +54,7 @@ set xlabel x_g_label; set ylabel velocity_label
 set ytics 0.2
 set key at 11.8, 0.1 right bottom
 plot for [i=1:4] series(run(i)) using "x_g":"v_g" with lines linetype i title name(i), \
-  for [i=1:4] "+" using (last_x_g):(table2(i, "vg")) every ::::0 with points linetype i @published_mark, \
+  for [i=1:4] $one using (last_x_g):(table2(i, "vg")) with points linetype i @published_mark, \
   NaN with points linetype 1 @published_mark title "published, Table 2"
 print "**Figure 7b.** Velocity of the centre of mass along the pore: the viscosity ratio matters little on the way and", \
   sprintf("not in the end. Distances to Table 2: %+.3f, %+.3f, %+.3f and %+.3f %%.", distance(1, "v_g", "vg"), \
