@@ -47,13 +47,13 @@ plot $meshes using "width":"published_vr" with points linetype 1 @published_mark
   power("published_vr", x) with lines linetype 1 title sprintf("order %.1f", published_vr_slope), \
   $meshes using "width":"stored_vr" with points linetype 2 pointtype 5 title "its numerics, here", \
   power("stored_vr", x) with lines linetype 2 title sprintf("order %.1f", stored_vr_slope), \
-  default_vr with lines linetype 3 title "default preset"
+  default_vr with lines linetype 3 title "standard preset"
 set yrange [1e-8:1e-2]
 set ylabel "|{/:Italic V} – {/:Italic V}_{ini}| / {/:Italic V}_{ini}"
 plot $meshes using "width":"published_dV" with points linetype 1 @published_mark title "published", \
   power("published_dV", x) with lines linetype 1 title sprintf("order %.1f", published_dV_slope), \
   $meshes using "width":"stored_dV" with points linetype 2 pointtype 5 title "its numerics, here", \
-  default_dV with lines linetype 3 title "default preset"
+  default_dV with lines linetype 3 title "standard preset"
 unset logscale
 set xrange [0:0.06]; set yrange [7.17:7.2]
 set xtics 0.02; set ytics 0.01; set format y "%.2f"
@@ -63,14 +63,14 @@ plot $meshes using "width":"published_dP" with points linetype 1 @published_mark
   limit("published_dP", x) with lines linetype 1 title limit_title("published_dP"), \
   $meshes using "width":"stored_dP" with points linetype 2 pointtype 5 title "its numerics, here", \
   limit("stored_dP", x) with lines linetype 2 title limit_title("stored_dP"), \
-  default_dP with lines linetype 3 title sprintf("default preset, %.4f", default_dP)
+  default_dP with lines linetype 3 title sprintf("standard preset, %.4f", default_dP)
 unset multiplot
 print "**Table 1, drawn.**", \
   sprintf("With its numerics the pressure drop converges to %.4f at order %.1f,", stored_dP_limit, stored_dP_order), \
-  sprintf("the value of the default preset (%.4f with an error of", default_dP), \
+  sprintf("the value of the standard preset (%.4f with an error of", default_dP), \
   sprintf("%.0e);", error_of("", "pressure_drop")), \
   sprintf("the published values converge to %.4f, %.2f %% above it.", published_dP_limit, \
           100 * (published_dP_limit / default_dP - 1)), \
   "The residual velocity is that of a capsule which still settles, not an error of the mesh. The published change of", \
-  "volume, about linear in the mesh width, is not reproduced: here it is smaller, and for the default preset", \
+  "volume, about linear in the mesh width, is not reproduced: here it is smaller, and for the standard preset", \
   sprintf("%.0e.", default_dV)
