@@ -199,37 +199,4 @@ Matrix MeridianBasis::odd(const Vector &points, int derivative) const {
                             : spline_values(nodes, spline_degree, odd_from_nodes, points, derivative);
 }
 
-OpenSpline open_spline(const Vector &nodes, EndDatum first, EndDatum last) {
-  require(nodes.size() >= 2, "a cubic spline needs two nodes");
-  return {nodes, spline_coefficients(nodes, 3, {static_cast<int>(first)}, {static_cast<int>(last)})};
-}
-
-Matrix OpenSpline::at(const Vector &points, int derivative) const {
-  return spline_values(nodes, 3, coefficients_from_data, points, derivative);
-}
-
-Matrix end_slopes(const Vector &nodes) {
-  const Eigen::Index n = nodes.size();
-  require(n >= 4, "a cubic polynomial needs four nodes");
-  Matrix slopes = Matrix::Zero(2, n);
-  // Slope of the Lagrange polynomials of four nodes at one of them.
-  const auto set = [&](Eigen::Index row, Eigen::Index begin, Eigen::Index at) {
-    for (Eigen::Index j = begin; j < begin + 4; ++j) {
-      for (Eigen::Index m = begin; m < begin + 4; ++m) {
-        if (m == j) {
-          continue;
-        }
-        double term = 1 / (nodes(j) - nodes(m));
-        for (Eigen::Index l = begin; l < begin + 4; ++l) {
-          term *= l == j || l == m ? 1 : (nodes(at) - nodes(l)) / (nodes(j) - nodes(l));
-        }
-        slopes(row, j) += term;
-      }
-    }
-  };
-  set(0, 0, 0);
-  set(1, n - 4, n - 1);
-  return slopes;
-}
-
 } // namespace capsule

@@ -10,7 +10,6 @@
 //   end conditions (eqs. 19-26): even functions have no odd, odd functions no even derivatives below the
 //   degree at the poles. Order degree + 1 for the value, one less for each derivative.
 // An odd function vanishes at the poles: with splines, its nodal values there must be zero.
-// A curve with two ends, such as the pore's wall, has the plain cubic spline OpenSpline.
 // All throw std::invalid_argument when nodes are too few or not ascending, or points lie outside.
 #include "linear_algebra.hpp"
 
@@ -34,22 +33,5 @@ struct MeridianBasis {
 
 MeridianBasis spectral_basis(int nodes);
 MeridianBasis spline_basis(int elements, int degree); // degree 3, 5 or 7
-
-// The cubic spline through n nodes of any spacing, with one datum more at each end: the slope there or the
-// second derivative. Its data are the n nodal values, then the datum of the first and of the last end, so
-// that a datum may be prescribed (eqs. 27 and 28), computed from the nodal values (end_slopes) or be an
-// unknown itself.
-enum class EndDatum { slope = 1, second_derivative = 2 };
-struct OpenSpline {
-  Vector nodes;
-  Matrix coefficients_from_data; // (n + 2) x (n + 2)
-
-  // points.size() x (n + 2): the derivative (0 ... 3) at the points from the data.
-  Matrix at(const Vector &points, int derivative) const;
-};
-OpenSpline open_spline(const Vector &nodes, EndDatum first, EndDatum last);
-
-// 2 x n: slopes at the first and the last node of the cubic polynomial through the four nodes next to it.
-Matrix end_slopes(const Vector &nodes);
 
 } // namespace capsule

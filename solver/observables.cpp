@@ -129,10 +129,6 @@ Gauge::Integrals Gauge::integrals(const Vector &position) const {
           2 * pi * (panels_.weights.array() * r * (x_zeta.square() + r_zeta.square()).sqrt()).sum()};
 }
 
-double Gauge::volume(const Vector &position) const {
-  return integrals(position).volume;
-}
-
 double Gauge::centre(const Vector &position) const {
   const Integrals now = integrals(position);
   return now.first_moment / now.volume;

@@ -56,7 +56,6 @@ class Gauge {
 public:
   Gauge(const Case &physics, const Membrane &membrane);
 
-  double volume(const Vector &position) const;
   double centre(const Vector &position) const; // x_g
   // Smallest distance to the wall, negative beyond it; infinite without a wall.
   double film(const Vector &position) const;

@@ -192,45 +192,10 @@ BOOST_AUTO_TEST_CASE(spline_quadrature_integrates_the_odd_spline) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(open_spline_takes_values_and_end_data) {
-  const Vector nodes = Vector::LinSpaced(8, 0, 1).array().square() * 3 - 1; // uneven
-  const Vector points = Vector::LinSpaced(50, -1, 2);
-  const auto cubic = [](double z) { return 2 - z + 0.5 * z * z - 0.7 * z * z * z; };
-  const auto slope = [](double z) { return -1 + z - 2.1 * z * z; };
-  const auto second = [](double z) { return 1 - 4.2 * z; };
-  Vector data(10);
-  data.head(8) = nodes.unaryExpr(cubic);
-  data(8) = slope(-1);
-  data(9) = second(2);
-  const OpenSpline spline = open_spline(nodes, EndDatum::slope, EndDatum::second_derivative);
-  BOOST_TEST((spline.at(points, 0) * data - points.unaryExpr(cubic)).lpNorm<Eigen::Infinity>() < 1e-13);
-  BOOST_TEST((spline.at(points, 1) * data - points.unaryExpr(slope)).lpNorm<Eigen::Infinity>() < 1e-12);
-  BOOST_TEST((spline.at(points, 2) * data - points.unaryExpr(second)).lpNorm<Eigen::Infinity>() < 1e-10);
-  const Vector slopes = end_slopes(nodes) * data.head(8);
-  BOOST_TEST(slopes(0) == slope(-1), boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(slopes(1) == slope(2), boost::test_tools::tolerance(1e-12));
-}
-
-BOOST_AUTO_TEST_CASE(open_spline_with_lagrange_slopes_is_of_fourth_order) {
-  const Vector points = Vector::LinSpaced(777, 0, 2);
-  const auto error = [&](int elements) {
-    const Vector nodes = Vector::LinSpaced(elements + 1, 0, 2);
-    const OpenSpline spline = open_spline(nodes, EndDatum::slope, EndDatum::slope);
-    Vector data(nodes.size() + 2);
-    data.head(nodes.size()) = nodes.array().exp();
-    data.tail(2) = end_slopes(nodes) * data.head(nodes.size());
-    return (spline.at(points, 0) * data - points.array().exp().matrix()).lpNorm<Eigen::Infinity>();
-  };
-  BOOST_TEST(std::log2(error(40) / error(80)) == 4, boost::test_tools::tolerance(0.05));
-}
-
 BOOST_AUTO_TEST_CASE(impossible_bases_are_refused) {
   BOOST_CHECK_THROW(spectral_basis(2), std::invalid_argument);
   BOOST_CHECK_THROW(spline_basis(60, 4), std::invalid_argument);
   BOOST_CHECK_THROW(spline_basis(2, 3), std::invalid_argument);
-  BOOST_CHECK_THROW(open_spline(Eigen::Vector3d(0, 2, 1), EndDatum::slope, EndDatum::slope),
-                    std::invalid_argument);
-  BOOST_CHECK_THROW(end_slopes(Eigen::Vector3d(0, 1, 2)), std::invalid_argument);
   const Vector outside = Vector::Constant(1, 4);
   BOOST_CHECK_THROW(spline_basis(8, 3).even(outside, 0), std::invalid_argument);
 }
