@@ -8,13 +8,13 @@ results(run) = "results/".case.(run eq "" ? "" : "/".run)
 series(run) = results(run)."/series.csv"
 profiles(run) = results(run)."/profiles.csv"
 # One number, NaN where there is none: of a summary.json, of this case's summaries and their error estimates, of
-# tables/published.csv.
+# tables/published.csv, where the row speaks of this case.
 number(text) = text eq "" ? NaN : text + 0
 entry(directory, key) = number(system("awk -F'[:,]' '/^".key.":/ {printf \"%.16e\", $2}' ".directory."/summary.json"))
 result_in(directory, name) = entry(directory, "  \"".name."\"")
 result(run, name) = result_in(results(run), name)
 error_of(run, name) = entry(results(run), "    \"".name."\"")
-published(id) = number(system("awk -F, '$1 == \"".id."\" {printf \"%.16e\", $6}' tables/published.csv"))
+published(id) = number(system("awk -F, '$1 == \"".id."\" && index($3, \"".case."\") == 1 {printf \"%.16e\", $6}' tables/published.csv"))
 # To plot a single point:  plot $one using (x):(y) with points
 $one << end
 x
@@ -58,7 +58,8 @@ pressure_label = "Δ{/:Italic P} / (μ{/:Italic Q}/π{/:Italic R}_t^3)"
 velocity_label = "{/:Italic v}_g / ({/:Italic Q}/π{/:Italic R}_t^2)"
 
 # The solid around the pore, eq. 1, on both sides of the axis:  plot @wall, ...
-opening_angle = 78.5 / 180 * pi
+first_run = system("ls -d results/".case." results/".case."/*/ 2>/dev/null | while read d; do test -f $d/summary.json && echo $d && break; done")
+opening_angle = entry(first_run, "    \"pore.opening_angle_deg\"") / 180 * pi
 wall_x(t) = t < 0 ? sinh(t) / tan(opening_angle) : t
 wall_r(t) = t < 0 ? cosh(t) : 1
 wall = "sample [t=-3:20] '+' using (wall_x(t)):(wall_r(t)):(10) with filledcurves linecolor rgb wall_colour, \

@@ -225,7 +225,7 @@ int run_command(int argc, char **argv) {
   app.add_subcommand("keys", "every key of a case file")->callback([&] { code = list_keys(); });
   CLI::App &new_app = *app.add_subcommand("new", "a new case directory cases/ID from another one");
   new_app.add_option("ID", id, "its name")->required();
-  new_app.add_option("--like", like, "the case directory to copy")->required();
+  new_app.add_option("--like", like, "the case to copy: a directory, or the name of one in cases/")->required();
   new_app.callback([&] { code = create(id, like); });
   try {
     app.parse(argc, argv);

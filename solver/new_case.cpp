@@ -26,15 +26,17 @@ void copy_files(const fs::path &from, const fs::path &to) {
 
 } // namespace
 
-fs::path new_case(const fs::path &root, const std::string &id, const fs::path &like) {
+fs::path new_case(const fs::path &root, const std::string &id, const fs::path &like_what) {
   if (!is_plain_name(id))
     throw InputError(
         fmt::format("{}:1:1: error: a case's name is made of letters, digits, '-', '_' and '.'\n", id));
   fs::path directory = root / "cases" / id;
   if (fs::exists(directory))
     throw InputError(fmt::format("{}:1:1: error: already exists\n", directory.string()));
+  // A case of this project goes by its name.
+  const fs::path like = fs::is_directory(like_what) ? like_what : root / "cases" / like_what;
   if (!fs::is_directory(like))
-    throw InputError(fmt::format("{}:1:1: error: is not a case directory\n", like.string()));
+    throw InputError(fmt::format("{}:1:1: error: is not a case directory\n", like_what.string()));
   read_case(like);
   make_directories(directory);
   try {

@@ -41,6 +41,11 @@ BOOST_AUTO_TEST_CASE(a_copy_is_a_case_of_its_own) {
   BOOST_TEST(input.runs.at(0).physics.flow.viscosity_ratio == 5);
 }
 
+BOOST_AUTO_TEST_CASE(a_case_of_the_project_goes_by_its_name) {
+  const Project project;
+  BOOST_TEST(content_of(new_case(project.path, "new", "old") / "figure.gp") == "plot x\n");
+}
+
 BOOST_AUTO_TEST_CASE(refused) {
   const Project project;
   check_refused(project, "old", "cases/old", "cases/old:1:1: error: already exists");
