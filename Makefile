@@ -1,18 +1,20 @@
 # The users' door. Everything else is CMake's: see CMakeLists.txt and cmake/cases.cmake.
 #   make           the solver, build/capsule
 #   make figures   every case computed, every figure and table drawn: figures/, tables/
+#   make atlas     every study of validation/ computed and drawn
 #   make test      unit tests and every case against its published values
 #   make help      all targets
 SHELL := /bin/bash
 
 .DEFAULT_GOAL := build
-.PHONY: help setup build figures tables test bench paper-numerics clean
+.PHONY: help setup build figures tables atlas test bench paper-numerics clean
 
 help:
 	@echo 'make [build]         build the solver, build/capsule'
 	@echo 'make setup           install the Debian packages of apt.txt that are missing'
 	@echo 'make figures         compute every case, draw every figure and write every table'
 	@echo 'make tables          compute every case and write every table'
+	@echo 'make atlas           compute every study of validation/ and draw its figures, also those of studies that fail'
 	@echo 'make test            run all tests'
 	@echo 'make bench           time the kernels'
 	@echo 'make paper-numerics  compute Table 1 again with the numerics of the paper: half an hour or more'
@@ -40,6 +42,9 @@ figures: build
 
 tables: build
 	@cmake --build build --target tables
+
+atlas: build
+	@cmake --build build --target atlas -- -k 0
 
 test: build/build.ninja
 	@cmake --build build

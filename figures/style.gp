@@ -1,7 +1,10 @@
 # How every figure looks: formats, font, lines, colours, the pore's wall, and where numbers are found. A case's
 # figure.gp says what is drawn and what it shows. To draw a case:
 #   gnuplot -e "case='<id>'; out='figures'" figures/style.gp
+# and a study of validation/ with folder='validation' besides.
 # Scales: lengths R_t, velocities Q/(pi R_t^2), pressures mu Q/(pi R_t^3), times pi R_t^3/Q.
+
+if (!exists("folder")) folder = "cases"
 
 # Results. A run is named as its directory, "viscosity_ratio=1"; "" is the only run of a case without a sweep.
 results(run) = "results/".case.(run eq "" ? "" : "/".run)
@@ -71,6 +74,6 @@ view(left, right, bottom, top) = sprintf("set size ratio -1; set xrange [%g:%g];
 system("mkdir -p ".out."/".case)
 do for [format in "svg png"] {
   reset; eval defaults
-  load "cases/".case."/figure.gp"
+  load folder."/".case."/figure.gp"
   unset output
 }

@@ -1,0 +1,43 @@
+# A directory validation/<id> takes part by being there, with a figure.gp and one of:
+#   study.cpp    a program of its own, linked with the solver: called as studies/<id> results/<id> <jobs>, it writes CSV
+#                files there, prints what it found and ends with 0 if every claim that it checks holds
+#   case.toml    runs that are compared with the case's rows of tables/published.csv
+# target study-<id>   computes, then draws figures/<id>/* whatever the verdict, and fails if the verdict says so;
+#                     all of them: atlas
+add_library(study EXCLUDE_FROM_ALL validation/study.cpp)
+target_include_directories(study PUBLIC validation)
+target_link_libraries(study PUBLIC solver PRIVATE warnings)
+
+include(ProcessorCount)
+ProcessorCount(PROCESSORS)
+add_custom_target(atlas)
+
+# The target study-<id>, which takes its verdict from the command.
+function(add_study id)
+  list(JOIN ARGN " " command)
+  set(draw "${GNUPLOT} -e \"folder='validation'; case='${id}'; out='figures'\" figures/style.gp")
+  if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/validation/${id}/figure.gp)
+    message(WARNING "nothing to draw for ${id}: add validation/${id}/figure.gp")
+    set(draw true)
+  endif()
+  add_custom_target(study-${id} COMMAND sh -c "${command}; verdict=$?; ${draw} && exit $verdict"
+    COMMENT "Study ${id}" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} USES_TERMINAL VERBATIM)
+  add_dependencies(atlas study-${id})
+endfunction()
+
+file(GLOB STUDIES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/validation validation/*/study.cpp)
+foreach(file IN LISTS STUDIES)
+  get_filename_component(id ${file} DIRECTORY)
+  add_executable(${id}-program EXCLUDE_FROM_ALL validation/${file})
+  set_target_properties(${id}-program PROPERTIES OUTPUT_NAME ${id} RUNTIME_OUTPUT_DIRECTORY studies)
+  target_link_libraries(${id}-program PRIVATE study warnings)
+  add_study(${id} $<TARGET_FILE:${id}-program> results/${id} ${PROCESSORS})
+  add_dependencies(study-${id} ${id}-program)
+endforeach()
+
+file(GLOB STUDY_CASES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/validation validation/*/case.toml)
+foreach(file IN LISTS STUDY_CASES)
+  get_filename_component(id ${file} DIRECTORY)
+  add_study(${id} $<TARGET_FILE:capsule> check validation/${id} --jobs ${PROCESSORS} --table tables/${id})
+  add_dependencies(study-${id} capsule)
+endforeach()

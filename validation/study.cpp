@@ -1,0 +1,113 @@
+#include "study.hpp"
+#include "failure.hpp"
+#include "motion.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace capsule {
+namespace {
+
+std::vector<std::string> split(const std::string &line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');)
+    cells.push_back(cell);
+  return cells;
+}
+
+// Grid position of a row: its x_g in units of 0.05, and whether it lies on the grid.
+struct GridPlace {
+  long index;
+  bool on_grid;
+};
+GridPlace grid_place(double x_g) {
+  const double place = x_g / 0.05;
+  return {std::lround(place), std::abs(place - std::round(place)) < 1e-6};
+}
+
+} // namespace
+
+int study_main(int argc, char **argv,
+               const std::function<bool(const std::string &directory, unsigned jobs)> &study) {
+  const int jobs = argc == 3 ? std::atoi(argv[2]) : 0;
+  if (jobs < 1) {
+    fmt::print(stderr, "usage: {} DIRECTORY JOBS\n", argv[0]);
+    return 2;
+  }
+  try {
+    return study(argv[1], static_cast<unsigned>(jobs)) ? 0 : 1;
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 3;
+  }
+}
+
+std::vector<StudyRun> run_all(const std::string &directory, unsigned jobs,
+                              const std::vector<RunInput> &runs) {
+  CaseInput input;
+  input.name = std::filesystem::path(directory).filename().string();
+  input.runs = runs;
+  RunOptions options;
+  options.directory = directory;
+  options.pool = std::filesystem::path(directory).parent_path() / "runs";
+  options.jobs = jobs;
+  std::vector<StudyRun> computed;
+  for (const RunResult &result : compute(input, options, march)) {
+    if (!result.summary)
+      throw FileError(result.directory.string() + ": the run was interrupted");
+    computed.push_back(read_run(result.directory));
+  }
+  return computed;
+}
+
+StudyRun read_run(const std::filesystem::path &directory) {
+  StudyRun run{read_summary(directory), {}};
+  std::ifstream file(directory / "series.csv");
+  std::string line;
+  std::getline(file, line);
+  const std::vector<std::string> names = split(line);
+  while (std::getline(file, line)) {
+    const std::vector<std::string> cells = split(line);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      run.series[names[k]].push_back(std::stod(cells.at(k)));
+  }
+  if (run.series.empty())
+    throw FileError((directory / "series.csv").string() + ": no rows");
+  return run;
+}
+
+double history_error(const StudyRun &run, const StudyRun &reference, const std::string &quantity, double from,
+                     double to) {
+  std::map<long, double> computed;
+  const std::vector<double> &x_g = run.series.at("x_g");
+  for (std::size_t k = 0; k < x_g.size(); ++k)
+    if (const GridPlace place = grid_place(x_g[k]); place.on_grid)
+      computed[place.index] = run.series.at(quantity)[k];
+  double error = 0;
+  double scale = 0;
+  const std::vector<double> &exact_x_g = reference.series.at("x_g");
+  for (std::size_t k = 0; k < exact_x_g.size(); ++k) {
+    const GridPlace place = grid_place(exact_x_g[k]);
+    if (!place.on_grid || exact_x_g[k] < from - 1e-9 || exact_x_g[k] > to + 1e-9)
+      continue;
+    const auto found = computed.find(place.index);
+    if (found == computed.end())
+      return std::numeric_limits<double>::infinity();
+    const double exact = reference.series.at(quantity)[k];
+    error = std::max(error, std::abs(found->second - exact));
+    scale = std::max(scale, std::abs(exact));
+  }
+  return error / scale;
+}
+
+void Table::add(const std::vector<std::string> &row) {
+  text_ += fmt::format("{}\n", fmt::join(row, ","));
+}
+
+} // namespace capsule

@@ -1,0 +1,47 @@
+#pragma once
+// What the studies of validation/ share: runs side by side, and histories compared.
+#include "run.hpp"
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace capsule {
+
+// The main function of a study: calls it with the program's two arguments, the directory for its files and the
+// number of jobs. Exit code 0 if it returns that its claims hold, 1 if not, 2 for wrong arguments, 3 for an
+// exception, which is printed.
+int study_main(int argc, char **argv,
+               const std::function<bool(const std::string &directory, unsigned jobs)> &study);
+
+// One run of a study, in its case's words.
+struct StudyRun {
+  Summary summary;
+  std::map<std::string, std::vector<double>> series; // columns of series.csv
+};
+
+// Computes the runs, `jobs` at a time, or finds them computed already by this same program; results go to
+// directory/<name of the run>. Throws what `compute` throws, and a FileError if a run was interrupted.
+std::vector<StudyRun> run_all(const std::string &directory, unsigned jobs, const std::vector<RunInput> &runs);
+
+// A run's directory read back.
+StudyRun read_run(const std::filesystem::path &directory);
+
+// Largest difference of two histories of one quantity over the rows whose x_g is a multiple of 0.05 and lies
+// in [from, to], relative to the largest value of the second. Infinite if the first lacks a row.
+double history_error(const StudyRun &run, const StudyRun &reference, const std::string &quantity, double from,
+                     double to);
+
+// Rows of numbers under a header, written at once.
+class Table {
+public:
+  explicit Table(const std::string &header) : text_(header + "\n") {}
+  // A row; texts must hold no comma.
+  void add(const std::vector<std::string> &row);
+  void write(const std::filesystem::path &file) const { write_atomically(file, text_); }
+
+private:
+  std::string text_;
+};
+
+} // namespace capsule
