@@ -1,0 +1,338 @@
+// Writes the report: one HTML page that holds everything and fetches nothing.
+//   report_page PAGE DIRECTORY...
+// PAGE is written; every DIRECTORY is a case or a study, cases/<id> or validation/<id>, whose figures, comparison and
+// results are taken from figures/<id>/, tables/<id>.csv and results/<id>/, as `make figures` and `make atlas` leave
+// them. What a directory has not computed yet is left out. The page's frame, style and player lie beside this file.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string read_file(const fs::path &file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The files of a directory with this ending, by name; none if there is no such directory.
+std::vector<fs::path> files_of(const fs::path &directory, const std::string &ending) {
+  std::vector<fs::path> files;
+  if (fs::is_directory(directory))
+    for (const fs::directory_entry &entry : fs::directory_iterator(directory))
+      if (entry.path().extension() == ending)
+        files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+// Rows of fields; a field in quotes may hold commas, line ends and doubled quotes.
+std::vector<std::vector<std::string>> read_csv(const fs::path &file) {
+  std::vector<std::vector<std::string>> rows = {{""}};
+  bool quoted = false;
+  const std::string text = read_file(file);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"')
+      rows.back().back() += text[++i];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      rows.back().emplace_back();
+    else if (c == '\n' && !quoted)
+      rows.push_back({""});
+    else
+      rows.back().back() += c;
+  }
+  if (rows.back() == std::vector<std::string>{""})
+    rows.pop_back();
+  return rows;
+}
+
+std::string escaped(const std::string &text) {
+  std::string html;
+  for (const char c : text)
+    html += c == '&'   ? "&amp;"
+            : c == '<' ? "&lt;"
+            : c == '>' ? "&gt;"
+            : c == '"' ? "&quot;"
+                       : std::string(1, c);
+  return html;
+}
+
+// Turns every `mark`...`mark` of a text into an element.
+std::string marked(const std::string &text, const std::string &mark, const std::string &element) {
+  std::string html;
+  std::size_t from = 0;
+  for (std::size_t open = 0; (open = text.find(mark, from)) != std::string::npos;) {
+    const std::size_t close = text.find(mark, open + mark.size());
+    if (close == std::string::npos)
+      break;
+    html += text.substr(from, open - from);
+    html +=
+        fmt::format("<{0}>{1}</{0}>", element, text.substr(open + mark.size(), close - open - mark.size()));
+    from = close + mark.size();
+  }
+  return html + text.substr(from);
+}
+
+// A caption's Markdown: a paragraph with **strong** words and `code`; its pictures are placed elsewhere.
+std::string caption(const fs::path &markdown) {
+  std::istringstream lines(read_file(markdown));
+  std::string text;
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("!["))
+      text += line + "\n";
+  return marked(marked(escaped(text), "**", "strong"), "`", "code");
+}
+
+std::string base64(const std::string &bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned three = 0;
+    for (std::size_t k = i; k < i + 3; ++k)
+      three = three << 8U | (k < bytes.size() ? static_cast<unsigned char>(bytes[k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63U];
+  }
+  return text;
+}
+
+// A cell that starts with a verdict wears its colour.
+std::string table_cell(const std::string &text) {
+  const std::array<std::pair<std::string, std::string>, 3> verdicts = {
+      {{"agrees", "agrees"}, {"differs", "differs"}, {"not decidable", "open"}}};
+  for (const auto &[verdict, style] : verdicts)
+    if (text.starts_with(verdict))
+      return fmt::format("<td class=\"{}\">{}</td>", style, escaped(text));
+  return fmt::format("<td>{}</td>", escaped(text));
+}
+
+std::string table(const fs::path &csv) {
+  const auto rows = read_csv(csv);
+  std::string html = "<div class=\"table\" tabindex=\"0\"><table>\n<thead><tr>";
+  for (const std::string &name : rows.front())
+    html += fmt::format("<th scope=\"col\">{}</th>", escaped(name));
+  html += "</tr></thead>\n<tbody>\n";
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    html += "<tr>";
+    for (const std::string &text : rows[i])
+      html += table_cell(text);
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+// The figures of a case or study, each with its finding, and how its numbers compare.
+std::string chapter(const fs::path &directory) {
+  const std::string id = directory.filename();
+  std::string html;
+  for (const fs::path &picture : files_of(fs::path("figures") / id, ".svg")) {
+    const std::string text = caption(fs::path(picture).replace_extension(".md"));
+    html += fmt::format("<figure><img alt=\"{}\" "
+                        "src=\"data:image/svg+xml;base64,{}\">\n<figcaption>{}</figcaption></figure>\n",
+                        escaped(picture.stem()), base64(read_file(picture)), text);
+  }
+  if (const fs::path csv = fs::path("tables") / (id + ".csv"); fs::exists(csv))
+    html += fmt::format("<details><summary>Computed against published values</summary>\n{}</details>\n",
+                        table(csv));
+  return html.empty() ? ""
+                      : fmt::format("<article id=\"{0}\"><h3>{0}</h3>\n{1}</article>\n", escaped(id), html);
+}
+
+// The finished runs of all cases, with their results' directories; a run that several cases share counts once.
+std::vector<fs::path> finished_runs(const std::vector<fs::path> &cases) {
+  std::vector<fs::path> runs;
+  std::map<std::string, fs::path> known;
+  for (const fs::path &directory : cases) {
+    const fs::path results = fs::path("results") / directory.filename();
+    std::vector<fs::path> found;
+    if (fs::is_directory(results))
+      for (const fs::directory_entry &entry : fs::recursive_directory_iterator(results))
+        if (entry.path().filename() == "run.json" && fs::exists(entry.path().parent_path() / "summary.json"))
+          found.push_back(entry.path().parent_path());
+    std::ranges::sort(found);
+    for (const fs::path &run : found)
+      if (known.emplace(Json::parse(read_file(run / "run.json")).at("identity"), run).second)
+        runs.push_back(run);
+  }
+  return runs;
+}
+
+std::string run_name(const fs::path &run) {
+  return fs::relative(run, "results").string();
+}
+
+std::string provenance(const std::vector<fs::path> &runs) {
+  std::string html = "<div class=\"table\" tabindex=\"0\"><table>\n<thead><tr>";
+  for (const char *name : {"run", "status", "steps", "CPU seconds", "estimated error of ΔP", "identity",
+                           "commit", "compiler", "flags", "processor"})
+    html += fmt::format("<th scope=\"col\">{}</th>", name);
+  html += "</tr></thead>\n<tbody>\n";
+  for (const fs::path &run : runs) {
+    const Json summary = Json::parse(read_file(run / "summary.json"));
+    const Json origin = Json::parse(read_file(run / "run.json"));
+    const Json &estimates = summary.at("error_estimate");
+    std::vector<std::string> cells = {run_name(run), summary.at("status"), summary.at("steps").dump(),
+                                      fmt::format("{:.1f}", summary.at("cpu_seconds").get<double>()),
+                                      estimates.contains("pressure_drop")
+                                          ? fmt::format("{:.1e}", estimates["pressure_drop"].get<double>())
+                                          : ""};
+    for (const char *key : {"identity", "git_commit", "compiler", "flags", "processor"})
+      cells.push_back(origin.at(key));
+    html += "<tr>";
+    for (const std::string &text : cells)
+      html += fmt::format("<td>{}</td>", escaped(text));
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+// Columns of a CSV file of numbers by their names.
+std::map<std::string, std::vector<double>> read_columns(const fs::path &file) {
+  const auto rows = read_csv(file);
+  std::map<std::string, std::vector<double>> columns;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    for (std::size_t k = 0; k < rows[i].size(); ++k)
+      columns[rows[0].at(k)].push_back(std::stod(rows[i][k]));
+  return columns;
+}
+
+// As many digits as a picture needs.
+double rounded(double value) {
+  return std::round(value * 1e4) / 1e4;
+}
+Json rounded(const std::vector<double> &values) {
+  Json numbers = Json::array();
+  for (const double value : values)
+    numbers.push_back(rounded(value));
+  return numbers;
+}
+
+const std::vector<std::pair<std::string, std::string>> player_fields = {
+    {"stretch_meridional", "stretch along the meridian"},
+    {"stretch_azimuthal", "stretch around the axis"},
+    {"tension_meridional", "tension along the meridian"},
+    {"tension_azimuthal", "tension around the axis"}};
+
+// One frame of the player per profile, in the order in which they were taken.
+Json player_frames(const fs::path &run) {
+  constexpr std::size_t most_points = 128; // of a profile; the eye sees no more
+  auto columns = read_columns(run / "profiles.csv");
+  const std::vector<double> &time = columns["time"];
+  Json frames = Json::array();
+  for (std::size_t first = 0, last = 0; first < time.size(); first = last) {
+    while (last < time.size() && time[last] == time[first])
+      ++last;
+    const std::size_t stride = 1 + (last - first) / most_points;
+    const auto part = [&](const std::string &name) {
+      const std::vector<double> &whole = columns.at(name);
+      std::vector<double> thinned;
+      for (std::size_t i = first; i + 1 < last; i += stride)
+        thinned.push_back(whole[i]);
+      thinned.push_back(whole[last - 1]);
+      return rounded(thinned);
+    };
+    Json fields = Json::array();
+    for (const auto &[column, name] : player_fields)
+      fields.push_back(part(column));
+    frames.push_back({{"time", rounded(time[first])},
+                      {"x_g", rounded(columns["x_g"][first])},
+                      {"x", part("x")},
+                      {"r", part("r")},
+                      {"fields", fields}});
+  }
+  return frames;
+}
+
+// The runs that keep enough profiles to be seen in motion.
+std::string player_data(const std::vector<fs::path> &runs) {
+  constexpr std::size_t fewest_frames = 20;
+  Json played = Json::array();
+  for (const fs::path &run : runs) {
+    const Json frames = player_frames(run);
+    if (frames.size() < fewest_frames)
+      continue;
+    const Json parameters = Json::parse(read_file(run / "summary.json")).at("parameters");
+    auto series = read_columns(run / "series.csv");
+    played.push_back(
+        {{"name", fmt::format("{}: {}", parameters.at("title").get<std::string>(), run_name(run))},
+         {"opening_angle", parameters.at("pore.opening_angle_deg").get<double>() * std::numbers::pi / 180},
+         {"series", {{"x_g", rounded(series["x_g"])}, {"pressure_drop", rounded(series["pressure_drop"])}}},
+         {"frames", frames}});
+  }
+  Json names = Json::array();
+  for (const auto &[column, name] : player_fields)
+    names.push_back(name);
+  return Json({{"fields", names}, {"runs", played}}).dump();
+}
+
+// The frame with every @name@ replaced.
+std::string filled(const std::string &frame, const std::map<std::string, std::string> &parts) {
+  std::string page;
+  std::size_t from = 0;
+  while (true) {
+    const std::size_t open = frame.find('@', from);
+    const std::size_t close = open == std::string::npos ? open : frame.find('@', open + 1);
+    if (close == std::string::npos)
+      return page + frame.substr(from);
+    page += frame.substr(from, open - from) + parts.at(frame.substr(open + 1, close - open - 1));
+    from = close + 1;
+  }
+}
+
+void write_page(const fs::path &page, const std::vector<fs::path> &directories) {
+  std::string cases, studies;
+  for (const fs::path &directory : directories)
+    (directory.parent_path().filename() == "cases" ? cases : studies) += chapter(directory);
+  const std::vector<fs::path> runs = finished_runs(directories);
+  const fs::path ledger = "tables/ledger.csv", source = REPORT_SOURCE;
+  const std::string html =
+      filled(read_file(source / "page.html"),
+             {{"style", read_file(source / "style.css")},
+              {"script", read_file(source / "player.js")},
+              {"ledger", fs::exists(ledger) ? table(ledger) : "<p>Not computed yet.</p>"},
+              {"cases", cases},
+              {"studies", studies},
+              {"provenance", provenance(runs)},
+              {"player", player_data(runs)}});
+  const fs::path draft = fs::path(page).concat(".part");
+  std::ofstream stream(draft, std::ios::binary);
+  stream << html;
+  stream.close();
+  if (!stream)
+    throw std::runtime_error(fmt::format("{}: cannot be written", draft.string()));
+  fs::rename(draft, page);
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  if (argc < 2) {
+    fmt::print(stderr, "usage: report_page PAGE DIRECTORY...\n");
+    return 2;
+  }
+  try {
+    write_page(argv[1], {argv + 2, argv + argc});
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 4;
+  }
+  return 0;
+}
