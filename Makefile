@@ -7,13 +7,14 @@
 SHELL := /bin/bash
 
 .DEFAULT_GOAL := build
-.PHONY: help setup build figures tables atlas test bench paper-numerics clean
+.PHONY: help setup build figures tables report atlas test bench paper-numerics clean
 
 help:
 	@echo 'make [build]         build the solver, build/capsule'
 	@echo 'make setup           install the Debian packages of apt.txt that are missing'
 	@echo 'make figures         compute every case, draw every figure and write every table'
 	@echo 'make tables          compute every case and write every table'
+	@echo 'make report          figures and tables, and report.html: all of it on one page, with a player'
 	@echo 'make atlas           compute every study of validation/ and draw its figures, also those of studies that fail'
 	@echo 'make test            run all tests'
 	@echo 'make bench           time the kernels'
@@ -43,6 +44,9 @@ figures: build
 tables: build
 	@cmake --build build --target tables
 
+report: build
+	@cmake --build build --target report
+
 atlas: build
 	@cmake --build build --target atlas -- -k 0
 
@@ -64,5 +68,5 @@ bench: build
 	@for program in build/bench_*; do $$program; done
 
 clean:
-	rm -rf build results figures/*/ figures/gallery.md tables/*.md
+	rm -rf build results figures/*/ figures/gallery.md tables/*.md report.html
 	find tables -name '*.csv' ! -name published.csv -delete
