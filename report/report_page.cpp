@@ -204,13 +204,13 @@ std::string provenance(const std::vector<fs::path> &runs) {
   return html + "</tbody></table></div>\n";
 }
 
-// Columns of a CSV file of numbers by their names.
+// Columns of a CSV file of numbers by their names; NaN where there is none.
 std::map<std::string, std::vector<double>> read_columns(const fs::path &file) {
   const auto rows = read_csv(file);
   std::map<std::string, std::vector<double>> columns;
   for (std::size_t i = 1; i < rows.size(); ++i)
     for (std::size_t k = 0; k < rows[i].size(); ++k)
-      columns[rows[0].at(k)].push_back(std::stod(rows[i][k]));
+      columns[rows[0].at(k)].push_back(rows[i][k].empty() ? NAN : std::stod(rows[i][k]));
   return columns;
 }
 
@@ -270,9 +270,11 @@ std::string player_data(const std::vector<fs::path> &runs) {
     if (frames.size() < fewest_frames)
       continue;
     const Json parameters = Json::parse(read_file(run / "summary.json")).at("parameters");
+    const Json &title = parameters.at("title");
     auto series = read_columns(run / "series.csv");
     played.push_back(
-        {{"name", fmt::format("{}: {}", parameters.at("title").get<std::string>(), run_name(run))},
+        {{"name",
+          title.is_null() ? run_name(run) : fmt::format("{}: {}", title.get<std::string>(), run_name(run))},
          {"opening_angle", parameters.at("pore.opening_angle_deg").get<double>() * std::numbers::pi / 180},
          {"series", {{"x_g", rounded(series["x_g"])}, {"pressure_drop", rounded(series["pressure_drop"])}}},
          {"frames", frames}});
