@@ -165,12 +165,23 @@ std::string profiles_csv(const std::vector<Profile> &profiles) {
   return text + "\n";
 }
 
+// Which points of a profile a picture needs: at most 128 steps along the meridian, from pole to pole.
+std::vector<Eigen::Index> pictured_points(const Profile &profile) {
+  const Eigen::Index last = profile.x.size() - 1, stride = 1 + last / 128;
+  std::vector<Eigen::Index> chosen;
+  for (Eigen::Index i = 0; i < last; i += stride)
+    chosen.push_back(i);
+  chosen.push_back(last);
+  return chosen;
+}
+
 // One profile turned about the axis: quadrilaterals between its points and `turns` meridians.
 std::string surface_vtp(const Profile &profile) {
   constexpr int turns = 48;
-  const Eigen::Index points = profile.x.size();
+  const std::vector<Eigen::Index> chosen = pictured_points(profile);
+  const auto points = std::ssize(chosen);
   std::string positions, connectivity, offsets;
-  for (Eigen::Index i = 0; i < points; ++i)
+  for (const Eigen::Index i : chosen)
     for (int k = 0; k < turns; ++k) {
       const double azimuth = 2 * std::numbers::pi * k / turns;
       positions += fmt::format("{:.7g} {:.7g} {:.7g}\n", profile.x[i], profile.r[i] * std::cos(azimuth),
@@ -189,9 +200,9 @@ std::string surface_vtp(const Profile &profile) {
     if (!name.starts_with("stretch") && !name.starts_with("tension"))
       continue;
     fields += fmt::format("<DataArray type=\"Float32\" Name=\"{}\" format=\"ascii\">\n", name);
-    for (const double value : profile.*column.values)
+    for (const Eigen::Index i : chosen)
       for (int k = 0; k < turns; ++k)
-        fields += fmt::format("{:.7g}\n", value);
+        fields += fmt::format("{:.7g}\n", (profile.*column.values)[i]);
     fields += "</DataArray>\n";
   }
   return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
@@ -201,8 +212,7 @@ std::string surface_vtp(const Profile &profile) {
                      "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n{}</DataArray>\n"
                      "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n{}</DataArray>\n"
                      "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n",
-                     points * turns, std::max<Eigen::Index>(0, points - 1) * turns, fields, positions,
-                     connectivity, offsets);
+                     points * turns, (points - 1) * turns, fields, positions, connectivity, offsets);
 }
 
 std::string surface_name(std::size_t index) {
