@@ -12,7 +12,7 @@ enum class PoreShape { hyperbolic, tube, none };
 enum class LawName { neo_hookean, skalak };
 enum class FlowType { pore, extension };
 enum class Numerics { standard, paper }; // the best preset we have; section 3 of the paper
-enum class Scheme { bdf, euler };
+enum class Scheme { bdf, euler, rk4 };
 
 struct Case {
   std::string title;
@@ -49,7 +49,7 @@ struct Case {
   } mesh;
   struct {
     Scheme scheme = Scheme::bdf;
-    double step = 0;      // of Euler's scheme
+    double step = 0;      // of an explicit scheme
     double tolerance = 0; // absolute error of the nodes' positions in one step, in units of R_t; 0: chosen
   } time;
   struct {

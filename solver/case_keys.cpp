@@ -93,11 +93,11 @@ std::vector<Key> make_keys() {
       {"mesh.exit", "elements of the exit section, N_P", member<int>(CAPSULE_AT(mesh.exit)),
        from_to(2, 10000), "30 with numerics = \"paper\", otherwise without meaning"},
 
-      {"time.scheme", "error-controlled BDF, or explicit Euler with a given step",
-       choice<Scheme>(CAPSULE_AT(time.scheme), {"bdf", "euler"}), any,
+      {"time.scheme", "error-controlled BDF; explicit Euler or Runge-Kutta of order 4 with a given step",
+       choice<Scheme>(CAPSULE_AT(time.scheme), {"bdf", "euler", "rk4"}), any,
        "bdf; euler with numerics = \"paper\""},
-      {"time.step", "step of Euler's scheme", member<double>(CAPSULE_AT(time.step)), above(0),
-       "2.5e-4 with time.scheme = \"euler\""},
+      {"time.step", "step of an explicit scheme", member<double>(CAPSULE_AT(time.step)), above(0),
+       "2.5e-4 with time.scheme = \"euler\", required with \"rk4\""},
       {"time.tolerance", "absolute error of the nodes' positions in one step, in units of R_t",
        member<double>(CAPSULE_AT(time.tolerance)), from_to(1e-13, 1e-2), of_accuracy},
 

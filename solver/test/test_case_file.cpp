@@ -443,10 +443,13 @@ BOOST_AUTO_TEST_CASE(geometry_that_cannot_be) {
   check_contains(message({"pore.shape=none"}), "--set:1:12: error: a pore flow needs a pore");
   check_contains(message({"time.step=1e-3"}),
                  "--set:1:11: error: time.step means nothing to time.scheme = \"bdf\"");
+  check_contains(message({"time.scheme=rk4"}), "--set:1:13: error: time.scheme = \"rk4\" needs a time.step");
+  check_contains(message({"time.scheme=rk4", "time.step=1e-3", "time.tolerance=1e-7"}),
+                 "--set:1:16: error: time.tolerance means nothing to time.scheme = \"rk4\"");
   check_contains(message({"mesh.exit=20"}),
                  "--set:1:11: error: mesh.exit means nothing to numerics = \"standard\"");
   check_contains(message({"numerics=paper", "time.scheme=bdf"}),
-                 "--set:1:13: error: numerics = \"paper\" has no error-controlled time steps");
+                 "--set:1:13: error: numerics = \"paper\" marches with Euler's scheme only");
   check_contains(message({"numerics=paper", "pore.shape=tube"}),
                  "--set:1:12: error: numerics = \"paper\" has the hyperbolic pore only");
   check_contains(message({"numerics=paper", "flow.type=extension", "until.time=1"}),
