@@ -7,7 +7,7 @@
 SHELL := /bin/bash
 
 .DEFAULT_GOAL := build
-.PHONY: help setup build figures tables report atlas test bench paper-numerics clean
+.PHONY: help setup build figures tables report atlas sweep test bench paper-numerics clean
 
 help:
 	@echo 'make [build]         build the solver, build/capsule'
@@ -16,6 +16,7 @@ help:
 	@echo 'make tables          compute every case and write every table'
 	@echo 'make report          figures and tables, and report.html: all of it on one page, with a player'
 	@echo 'make atlas           compute every study of validation/ and draw its figures, also those of studies that fail'
+	@echo 'make sweep CASE=cases/... [JOBS=n] [SSH=one,two,:]   share the runs of a case out to processes and machines'
 	@echo 'make test            run all tests'
 	@echo 'make bench           time the kernels'
 	@echo 'make paper-numerics  compute Table 1 again with the numerics of the paper: half an hour or more'
@@ -49,6 +50,9 @@ report: build
 
 atlas: build
 	@cmake --build build --target atlas -- -k 0
+
+sweep: build
+	@sweep/parallel.sh $(or $(CASE),$(error CASE=... names no case)) $(or $(JOBS),100%) $(SSH)
 
 test: build/build.ninja
 	@cmake --build build

@@ -53,6 +53,8 @@ struct Arguments {
   bool fresh = false;
   double time_limit = 0; // seconds; 0: none
   std::string table;     // files of the comparison, without their endings
+  bool list = false;     // the runs, instead of computing them
+  std::size_t only = 0;  // one run of a sweep, counted from 1; 0: all
 };
 
 RunOptions run_options(const Arguments &arguments, const CaseInput &input) {
@@ -92,8 +94,35 @@ std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arg
   return results;
 }
 
+// One line a run, for programs that share the runs out: its number, the name of its directory, its identity, what
+// there is of it.
+int list_runs(const CaseInput &input, const RunOptions &options) {
+  for (std::size_t i = 0; i < input.runs.size(); ++i) {
+    const RunInput &run_input = input.runs[i];
+    const RunState state = state_of(run_input, options);
+    fmt::print("{}\t{}\t{}\t{}\n", i + 1, run_input.name.empty() ? input.name : run_input.name,
+               run_identity(run_input.physics),
+               state.finished       ? state.ending
+               : state.fraction > 0 ? fmt::format("{:.0f} % done", 100 * state.fraction)
+                                    : "to be computed");
+  }
+  return done;
+}
+
+CaseInput one_run_of(CaseInput input, std::size_t number) {
+  if (number > input.runs.size())
+    throw InputError(fmt::format("error: --only {}: {} has {} runs; `capsule run {} --list` shows them\n",
+                                 number, input.name, input.runs.size(), input.file.string()));
+  input.runs = {input.runs[number - 1]};
+  return input;
+}
+
 int run(const Arguments &arguments) {
-  const CaseInput input = read_case(arguments.path, arguments.overrides);
+  CaseInput input = read_case(arguments.path, arguments.overrides);
+  if (arguments.list)
+    return list_runs(input, run_options(arguments, input));
+  if (arguments.only > 0)
+    input = one_run_of(input, arguments.only);
   const std::vector<RunResult> results = compute_case(input, arguments);
   if (std::ranges::any_of(results, is_interrupted))
     return interrupted;
@@ -211,6 +240,10 @@ int run_command(int argc, char **argv) {
   int code = done;
   CLI::App &run_app = *app.add_subcommand("run", "compute every run of a case that is not finished yet");
   add_computing(run_app, arguments);
+  run_app.add_flag("--list", arguments.list,
+                   "list the runs instead: number, directory, identity, what there is; parted by tabs");
+  run_app.add_option("--only", arguments.only, "compute only the run of this number, as --list counts")
+      ->check(CLI::PositiveNumber);
   run_app.callback([&] { code = run(arguments); });
   CLI::App &check_app =
       *app.add_subcommand("check", "compute what is missing and compare with expected values");
@@ -225,7 +258,8 @@ int run_command(int argc, char **argv) {
   app.add_subcommand("keys", "every key of a case file")->callback([&] { code = list_keys(); });
   CLI::App &new_app = *app.add_subcommand("new", "a new case directory cases/ID from another one");
   new_app.add_option("ID", id, "its name")->required();
-  new_app.add_option("--like", like, "the case to copy: a directory, or the name of one in cases/")->required();
+  new_app.add_option("--like", like, "the case to copy: a directory, or the name of one in cases/")
+      ->required();
   new_app.callback([&] { code = create(id, like); });
   try {
     app.parse(argc, argv);

@@ -244,13 +244,16 @@ std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options
 RunState state_of(const RunInput &run, const RunOptions &options) {
   const fs::path home = home_of(run, options);
   const std::string identity = run_identity(run.physics);
-  if (is_there(run, options))
-    return {true, 1, read_summary(home).quantities.at("wall_seconds")};
+  if (is_there(run, options)) {
+    const Summary summary = read_summary(home);
+    const std::string ending = summary.status + (summary.failure.empty() ? "" : ": " + summary.failure);
+    return {true, ending, 1, summary.quantities.at("wall_seconds")};
+  }
   const auto saved = read_checkpoint(home, identity);
   if (!saved)
     return {};
   const std::vector<SeriesRow> &series = saved->checkpoint.series;
-  return {false, series.empty() ? 0 : fraction_done(run.physics, series.back().time, series.back().x_g),
+  return {false, "", series.empty() ? 0 : fraction_done(run.physics, series.back().time, series.back().x_g),
           saved->effort.wall_seconds};
 }
 

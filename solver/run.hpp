@@ -41,6 +41,7 @@ std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options
 // What there is of a run before it is computed.
 struct RunState {
   bool finished = false;
+  std::string ending;  // "reached", "failed: wrinkled"; empty unless finished
   double fraction = 0; // of an interrupted one
   double wall_seconds = 0;
 };
