@@ -1,5 +1,5 @@
 #!/bin/sh
-# A sweep shared out by GNU parallel: as many results as runs, the failed one listed, the same bytes as of one process,
+# A sweep shared out by GNU parallel, and by Slurm where it runs: as many results as runs, the failed one listed, the same bytes as of one process,
 # and nothing computed twice.
 #   sh validation/sweep.sh path/to/capsule
 # Skipped (77) where GNU parallel is missing.
@@ -47,9 +47,24 @@ sh "$script" cases/small.toml 2 > second.log 2>&1 || true
 
 # One process alone gives the same bytes.
 build/capsule run cases/small.toml --jobs 1 --out alone > alone.log 2>&1 || true
-for file in series.csv profiles.csv resolved.toml; do
-  for run in alone/*; do
-    cmp "$run/$file" "results/small/${run##*/}/$file" || fail "$file differs"
+same_bytes() {
+  for file in series.csv profiles.csv resolved.toml; do
+    for run in alone/*; do
+      cmp "$run/$file" "results/small/${run##*/}/$file" || fail "$file differs"
+    done
   done
-done
+}
+same_bytes
+
+# The same as a job array, where there is a cluster, be it of one machine.
+if sinfo --noheader > sinfo.log 2>&1; then
+  rm -rf results
+  status=0
+  sh "${script%parallel.sh}slurm.sh" cases/small.toml --wait > array.log 2>&1 || status=$?
+  [ $status -eq 3 ] || fail "the job array ended with $status, not with 3"
+  [ "$(build/capsule run cases/small.toml --list | grep -c 'failed: ')" -eq 1 ] || fail 'the failed job is not listed'
+  same_bytes
+else
+  echo "no Slurm here: the job array was not tried"
+fi
 echo "2 runs reached their end, 1 failed and was listed, none was computed twice"
