@@ -5,6 +5,7 @@
 #   target figure-<id>  the same, and draws figures/<id>/*; all of them, and figures/gallery.md: figures
 # Stored results cases/<id>/<name>/<run>/ of another file cases/<id>/<name>.toml have a test case-<id>-<name> and a
 # target table-<id>-<name>. What is computed lies in results/ for all of them.
+# The target ledger writes tables/ledger.csv and .md, the verdict on each claim of the paper; it is part of figures.
 find_program(GNUPLOT gnuplot REQUIRED)
 file(READ tables/published.csv PUBLISHED)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS tables/published.csv)
@@ -13,7 +14,11 @@ add_custom_target(tables)
 add_custom_target(figures
   COMMAND sh -c "for file in figures/*/*.md tables/*.md; do cat $file; echo; done > figures/gallery.md"
   COMMENT "Writing figures/gallery.md" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} VERBATIM)
-add_dependencies(figures tables)
+add_custom_target(ledger
+  COMMAND sh -c "$<TARGET_FILE:capsule> ledger --table tables/ledger || test $? = 1"
+  COMMENT "Ledger of claims" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} USES_TERMINAL VERBATIM)
+add_dependencies(ledger tables)
+add_dependencies(figures ledger)
 
 # The test case-<name> and the target table-<name> for what `capsule check ...` compares.
 function(add_comparison name)

@@ -1,129 +1,45 @@
 #include "compare.hpp"
-#include "case_keys.hpp"
 #include "failure.hpp"
 #include "text.hpp"
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fstream>
-#include <sstream>
+#include <set>
 
 namespace capsule {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> read_lines(const fs::path &file) {
-  errno = 0;
-  std::ifstream stream(file);
-  if (!stream)
-    throw FileError(fmt::format("cannot read '{}': {}", file.string(), std::strerror(errno)));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);)
-    lines.push_back(line);
-  return lines;
-}
+constexpr std::array columns{&Expectation::id,      &Expectation::where,     &Expectation::case_name,
+                             &Expectation::run,     &Expectation::quantity,  &Expectation::published,
+                             &Expectation::allowed, &Expectation::reason,    &Expectation::claim,
+                             &Expectation::kind,    &Expectation::statement, &Expectation::converged,
+                             &Expectation::verdict, &Expectation::evidence};
+constexpr const char *header = "id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,"
+                               "converged,verdict,evidence";
+constexpr std::array kinds{"number", "bound", "ratio", "order", "behaviour", "picture"};
+constexpr std::array verdicts{"agrees", "differs", "not decidable"};
 
-// Fields between commas; a field may stand in double quotes, doubled inside.
-std::vector<std::string> split_csv(const std::string &line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
-      fields.back() += line[++i];
-    else if (line[i] == '"')
-      quoted = !quoted;
-    else if (line[i] == ',' && !quoted)
-      fields.emplace_back();
-    else if (line[i] != '\r')
-      fields.back() += line[i];
-  }
-  return fields;
-}
-
-std::string csv_field(const std::string &text) {
-  return text.find(',') == std::string::npos ? text : '"' + text + '"';
-}
-
-std::string trimmed(const std::string &text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
-std::optional<double> to_number(const std::string &text) {
-  std::size_t used = 0;
-  try {
-    const double value = std::stod(text, &used);
-    return used == text.size() ? std::optional(value) : std::nullopt;
-  } catch (const std::exception &) {
-    return std::nullopt;
-  }
-}
-
-using Pair = std::pair<std::string, std::string>;
-
-std::optional<Pair> split_pair(const std::string &text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos)
-    return std::nullopt;
-  return Pair{trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))};
-}
-
-// "viscosity_ratio=1; law=skalak"; nothing if it is not of this form.
-std::optional<std::vector<Pair>> split_selector(const std::string &text) {
-  std::vector<Pair> pairs;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ';');) {
-    auto pair = split_pair(part);
-    if (!pair)
-      return std::nullopt;
-    pairs.push_back(std::move(*pair));
-  }
-  return pairs;
-}
-
-const Key *key_named(const std::string &name) {
-  const auto named = [&](const Key &key) { return key.name == name || last_component(key.name) == name; };
-  const auto found = std::ranges::find_if(keys(), named);
-  return found == keys().end() ? nullptr : &*found;
-}
-
-bool has_value(const Case &physics, const Pair &pair) {
-  const auto value = get_value(*key_named(pair.first), physics);
-  if (!value)
-    return false;
-  if (const auto *word = std::get_if<std::string>(&*value))
-    return *word == pair.second;
-  return to_number(value_text(*value)) == to_number(pair.second);
-}
-
-bool is_selected(const Case &physics, const std::string &selector) {
-  const std::vector<Pair> pairs = split_selector(selector).value();
-  return std::ranges::all_of(pairs, [&](const Pair &pair) { return has_value(physics, pair); });
-}
-
-constexpr std::array columns{&Expectation::id,      &Expectation::where,    &Expectation::case_name,
-                             &Expectation::run,     &Expectation::quantity, &Expectation::published,
-                             &Expectation::allowed, &Expectation::reason};
-constexpr const char *header = "id,where,case,run,quantity,published,allowed,reason";
-
-// What is wrong with a row, or nothing once its numbers are taken.
+// What is wrong with the published value and the allowed distance, or nothing once they are taken.
 std::string take_numbers(Expectation &row) {
-  const auto pairs = split_selector(row.run);
-  if (!pairs)
-    return fmt::format("the run '{}' is not of the form key=value", row.run);
-  for (const Pair &pair : *pairs)
-    if (key_named(pair.first) == nullptr)
-      return fmt::format("unknown key '{}'", pair.first);
-  if (row.quantity == "status")
+  using Form = Expectation::Form;
+  if (row.quantity == "status") {
+    row.form = Form::status;
     return "";
-  const auto value = to_number(row.published);
+  }
+  if (row.recorded == Verdict::not_decidable)
+    return "";
+  const char first = row.published.empty() ? ' ' : row.published[0];
+  row.form = first == '<' ? Form::below : first == '>' ? Form::above : Form::value;
+  const auto value = to_number(row.form == Form::value ? row.published : trimmed(row.published.substr(1)));
   if (!value)
     return fmt::format("published '{}' is not a number", row.published);
+  row.published_value = *value;
+  if (row.form != Form::value)
+    return row.allowed.empty() ? "" : "a bound allows no distance";
   row.relative = row.allowed.ends_with("%");
   const auto allowed =
       to_number(trimmed(row.relative ? row.allowed.substr(0, row.allowed.size() - 1) : row.allowed));
@@ -131,90 +47,164 @@ std::string take_numbers(Expectation &row) {
     return fmt::format("allowed '{}' is not a positive number, or one with %", row.allowed);
   if (row.relative && *value == 0)
     return "nothing can be relative to a published value of 0";
-  row.published_value = *value;
   row.allowed_distance = *allowed * (row.relative ? 0.01 : 1);
   return "";
 }
 
-// A column of series.csv where another one passes a value for the first time; linear between the rows.
-std::optional<double> interpolated(const fs::path &series, const std::string &quantity,
-                                   const std::string &column, double at) {
-  const std::vector<std::string> lines = read_lines(series);
-  const std::vector<std::string> names = split_csv(lines.empty() ? "" : lines[0]);
-  const auto index_of = [&](const std::string &name) {
-    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-  };
-  const std::size_t wanted = index_of(quantity), along = index_of(column);
-  if (std::max(wanted, along) >= names.size())
-    return std::nullopt;
-  double y_before = 0, x_before = 0;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> fields = split_csv(lines[i]);
-    const double y = std::stod(fields.at(wanted)), x = std::stod(fields.at(along));
-    if (x == at)
-      return y;
-    if (i > 1 && (x_before < at) != (x < at))
-      return y_before + (y - y_before) * (at - x_before) / (x - x_before);
-    y_before = y;
-    x_before = x;
-  }
-  return std::nullopt;
+std::string take_verdict(Expectation &row) {
+  const auto verdict = std::ranges::find(verdicts, row.verdict);
+  if (verdict == verdicts.end())
+    return fmt::format("the verdict '{}' is none of '{}'", row.verdict, fmt::join(verdicts, "', '"));
+  row.recorded = static_cast<Verdict>(verdict - verdicts.begin());
+  if (row.recorded != Verdict::agrees && row.evidence.empty())
+    return fmt::format("evidence is missing for the verdict '{}'", row.verdict);
+  if (!row.claim.empty() && std::ranges::find(kinds, row.kind) == kinds.end())
+    return fmt::format("the kind '{}' is none of '{}'", row.kind, fmt::join(kinds, "', '"));
+  return "";
 }
 
-std::optional<double> computed_value(const RunResult &result, const std::string &quantity) {
-  const std::size_t at = quantity.find('@');
-  if (at == std::string::npos) {
-    const auto found = result.summary->quantities.find(quantity);
-    return found == result.summary->quantities.end() ? std::nullopt : std::optional(found->second);
+// The expressions of a row.
+std::vector<Expression> expressions_of(const Expectation &row) {
+  std::vector<Expression> expressions;
+  for (const std::string &text : {row.quantity, row.converged})
+    if (!text.empty() && text != "status")
+      expressions.emplace_back(text);
+  return expressions;
+}
+
+// Throws InputError.
+void check_words(const Expectation &row) {
+  const Selector selector(row.run);
+  for (const Expression &expression : expressions_of(row))
+    for (const Reference &reference : expression.references())
+      if (reference.runs)
+        const Selector other(runs_of(reference));
+}
+
+std::string mistake_of(Expectation &row) {
+  try {
+    check_words(row);
+  } catch (const InputError &error) {
+    return error.what();
   }
-  const auto place = split_pair(quantity.substr(at + 1));
-  const auto value = place ? to_number(place->second) : std::nullopt;
-  return value ? interpolated(result.directory / "series.csv", quantity.substr(0, at), place->first, *value)
-               : std::nullopt;
+  const std::string mistake = take_verdict(row);
+  return mistake.empty() ? take_numbers(row) : mistake;
 }
 
 std::string status_of(const Summary &summary) {
   return summary.status + (summary.failure.empty() ? "" : ":" + summary.failure);
 }
 
-Comparison compare_one(const Expectation &expected, const RunResult &result) {
-  Comparison comparison{expected, result.input.name, "", "", "", false, false};
-  if (expected.quantity == "status") {
+// What one row compares in one run.
+class Comparer {
+public:
+  Comparer(const Expectation &expected, const std::string &case_name, const RunTable &table)
+      : expected_(expected), case_name_(case_name), table_(table) {}
+
+  Comparison status(const RunResult &result) const {
+    Comparison comparison = start(&result);
     comparison.computed = status_of(*result.summary);
-    comparison.agrees =
-        comparison.computed == expected.published || result.summary->status == expected.published;
+    decide(comparison,
+           comparison.computed == expected_.published || result.summary->status == expected_.published);
     return comparison;
   }
-  const auto value = computed_value(result, expected.quantity);
-  if (!value) {
-    comparison.computed = "no value";
+
+  Comparison value(const RunResult *result) const {
+    Comparison comparison = start(result);
+    try {
+      const double value = value_of(expected_.quantity, result);
+      comparison.computed = fmt::format("{:.7g}", value);
+      const std::string &best = expected_.converged.empty() ? expected_.quantity : expected_.converged;
+      if (!expected_.converged.empty())
+        comparison.converged = fmt::format("{:.7g}", value_of(best, result));
+      const auto error = table_.error_estimate(Expression(best), case_name_, result);
+      if (error)
+        comparison.estimate = fmt::format("{:.1g}", *error);
+      if (expected_.recorded == Verdict::not_decidable)
+        comparison.verdict = Verdict::not_decidable;
+      else
+        judge(comparison, value, error);
+    } catch (const NoValue &reason) {
+      comparison.computed = reason.what();
+      comparison.no_such_run = comparison.computed == "no such run";
+    }
     return comparison;
   }
-  const double unit = expected.relative ? std::abs(expected.published_value) : 1;
-  const double distance = (*value - expected.published_value) / unit;
-  comparison.computed = fmt::format("{:.7g}", *value);
-  comparison.distance =
-      expected.relative ? fmt::format("{:+.2g} %", 100 * distance) : fmt::format("{:+.2g}", distance);
-  if (const auto error = result.summary->error_estimate.find(expected.quantity);
-      error != result.summary->error_estimate.end())
-    comparison.estimate = fmt::format("{:.1g}", error->second);
-  comparison.agrees = std::abs(distance) <= expected.allowed_distance;
-  return comparison;
+
+private:
+  Comparison start(const RunResult *result) const {
+    Comparison comparison;
+    comparison.expected = expected_;
+    comparison.case_name = case_name_;
+    comparison.run = result != nullptr ? result->input.name : "";
+    return comparison;
+  }
+
+  static void decide(Comparison &comparison, bool agrees) {
+    comparison.verdict = agrees ? Verdict::agrees : Verdict::differs;
+  }
+
+  double value_of(const std::string &expression, const RunResult *result) const {
+    return Expression(expression).value([&](const Reference &reference) {
+      return table_.values(reference, case_name_, result);
+    });
+  }
+
+  void judge(Comparison &comparison, double value, const std::optional<double> &error) const {
+    const double off = value - expected_.published_value;
+    if (expected_.form != Expectation::Form::value) {
+      comparison.distance = fmt::format("{:+.2g}", off);
+      comparison.excess = expected_.form == Expectation::Form::below ? off : -off;
+      decide(comparison, comparison.excess < 0);
+      return;
+    }
+    const double unit = expected_.relative ? std::abs(expected_.published_value) : 1;
+    comparison.distance =
+        expected_.relative ? fmt::format("{:+.2g} %", 100 * off / unit) : fmt::format("{:+.2g}", off);
+    comparison.excess = std::abs(off) - expected_.allowed_distance * unit;
+    const bool agrees = comparison.excess <= 0;
+    decide(comparison, agrees);
+    if (!expected_.claim.empty() && (expected_.kind == "number" || expected_.kind == "ratio"))
+      comparison.sharp = error && 5 * *error <= (agrees ? expected_.allowed_distance * unit : std::abs(off));
+  }
+
+  const Expectation &expected_;
+  const std::string &case_name_;
+  const RunTable &table_;
+};
+
+// Whether a row speaks of each run, not of those alone that it names.
+bool is_of_each_run(const Expectation &row) {
+  for (const Expression &expression : expressions_of(row))
+    for (const Reference &reference : expression.references())
+      if (!reference.runs)
+        return true;
+  return row.quantity == "status";
 }
 
-using ComparisonRow = std::array<std::string, 10>;
+std::string verdict_against_record(const Comparison &c) {
+  if (c.as_recorded())
+    return verdict_text(c.verdict);
+  if (!c.sharp)
+    return "ERROR TOO LARGE";
+  return fmt::format("{}, NOT AS RECORDED", verdict_text(c.verdict));
+}
 
-// The header, then one row per comparison.
-std::vector<ComparisonRow> comparison_rows(const std::vector<Comparison> &comparisons) {
-  std::vector<ComparisonRow> rows{{"id", "where", "run", "quantity", "computed", "own error", "published",
-                                   "distance", "allowed", "verdict"}};
-  for (const Comparison &c : comparisons)
-    rows.push_back({c.expected.id, c.expected.where, c.run, c.expected.quantity, c.computed, c.estimate,
-                    c.expected.published, c.distance, c.expected.allowed, c.agrees ? "agrees" : "DIFFERS"});
-  return rows;
+std::string csv_field(const std::string &text) {
+  if (text.find_first_of(",\"\n") == std::string::npos)
+    return text;
+  std::string quoted(1, '"');
+  for (const char c : text)
+    quoted.append(c == '"' ? 2 : 1, c);
+  quoted.push_back('"');
+  return quoted;
 }
 
 } // namespace
+
+std::string verdict_text(Verdict verdict) {
+  return verdicts.at(static_cast<std::size_t>(verdict));
+}
 
 std::optional<fs::path> find_expectations(const fs::path &case_file) {
   std::error_code ignored;
@@ -227,7 +217,7 @@ std::optional<fs::path> find_expectations(const fs::path &case_file) {
   }
 }
 
-std::vector<Expectation> read_expectations(const fs::path &table, const std::string &case_name) {
+std::vector<Expectation> read_expectations(const fs::path &table) {
   const std::vector<std::string> lines = read_lines(table);
   std::string errors;
   const auto complain = [&](std::size_t line, const std::string &message) {
@@ -245,64 +235,111 @@ std::vector<Expectation> read_expectations(const fs::path &table, const std::str
     Expectation row;
     for (std::size_t k = 0; k < columns.size(); ++k)
       row.*columns.at(k) = trimmed(fields[k]);
-    if (const std::string mistake = take_numbers(row); !mistake.empty())
+    if (const std::string mistake = mistake_of(row); !mistake.empty())
       complain(i, mistake);
-    if (row.case_name == case_name)
-      rows.push_back(std::move(row));
+    rows.push_back(std::move(row));
   }
   if (!errors.empty())
     throw InputError(errors);
   return rows;
 }
 
-std::vector<Comparison> compare(const std::vector<Expectation> &expectations,
-                                const std::vector<RunResult> &results) {
+std::vector<Expectation> expectations_of(const std::vector<Expectation> &all, const std::string &case_name) {
+  std::vector<Expectation> rows;
+  std::ranges::copy_if(all, std::back_inserter(rows), [&](const Expectation &row) {
+    return row.case_name == case_name || row.case_name == "*";
+  });
+  return rows;
+}
+
+std::vector<std::string> referenced_cases(const std::vector<Expectation> &expectations) {
+  std::set<std::string> names;
+  for (const Expectation &row : expectations)
+    for (const Expression &expression : expressions_of(row))
+      for (const Reference &reference : expression.references())
+        if (const auto name = case_of(reference))
+          names.insert(*name);
+  return {names.begin(), names.end()};
+}
+
+std::vector<Comparison> compare(const std::vector<Expectation> &expectations, const std::string &case_name,
+                                const RunTable &table) {
   std::vector<Comparison> comparisons;
   for (const Expectation &expected : expectations) {
+    const Comparer comparer(expected, case_name, table);
+    if (!is_of_each_run(expected)) {
+      comparisons.push_back(comparer.value(nullptr));
+      continue;
+    }
     const std::size_t before = comparisons.size();
-    for (const RunResult &result : results)
-      if (is_selected(result.input.physics, expected.run))
-        comparisons.push_back(compare_one(expected, result));
-    if (comparisons.size() == before)
-      comparisons.push_back({expected, expected.run, "no such run", "", "", false, true});
+    const Selector selector(expected.run);
+    for (const RunResult &result : table.runs_of(case_name))
+      if (selector.selects(result.input.physics))
+        comparisons.push_back(expected.form == Expectation::Form::status ? comparer.status(result)
+                                                                         : comparer.value(&result));
+    if (comparisons.size() == before) {
+      comparisons.emplace_back();
+      comparisons.back().expected = expected;
+      comparisons.back().case_name = case_name;
+      comparisons.back().run = expected.run;
+      comparisons.back().computed = "no such run";
+      comparisons.back().no_such_run = true;
+    }
   }
   return comparisons;
 }
 
 bool failure_is_expected(const std::vector<Comparison> &comparisons, const RunResult &result) {
   return std::ranges::any_of(comparisons, [&](const Comparison &comparison) {
-    return comparison.agrees && comparison.expected.quantity == "status" &&
+    return comparison.verdict == Verdict::agrees && comparison.expected.form == Expectation::Form::status &&
            comparison.run == result.input.name;
   });
 }
 
-std::string comparison_table(const std::vector<Comparison> &comparisons) {
-  const std::vector<ComparisonRow> rows = comparison_rows(comparisons);
+std::vector<TextRow> comparison_rows(const std::vector<Comparison> &comparisons) {
+  std::vector<TextRow> rows{{"id", "where", "run", "quantity", "computed", "converged", "own error",
+                             "published", "distance", "allowed", "verdict"}};
+  for (const Comparison &c : comparisons)
+    rows.push_back({c.expected.id, c.expected.where, c.run, c.expected.quantity, c.computed, c.converged,
+                    c.estimate, c.expected.published, c.distance, c.expected.allowed,
+                    verdict_against_record(c)});
+  return rows;
+}
+
+std::string text_table(const std::vector<TextRow> &rows) {
+  constexpr std::size_t widest = 40; // a longer entry moves its own row only
   std::string text;
-  for (const ComparisonRow &row : rows) {
+  for (const TextRow &row : rows) {
     for (std::size_t k = 0; k + 1 < row.size(); ++k) {
-      const auto wider = [k](const auto &a, const auto &b) { return a.at(k).size() < b.at(k).size(); };
-      text += fmt::format("{:<{}}  ", row.at(k), std::ranges::max_element(rows, wider)->at(k).size());
+      std::size_t width = 0;
+      for (const TextRow &other : rows)
+        if (other.at(k).size() <= widest)
+          width = std::max(width, other.at(k).size());
+      text += fmt::format("{:<{}}  ", row.at(k), width);
     }
     text += row.back() + '\n';
   }
   return text;
 }
 
-std::string comparison_csv(const std::vector<Comparison> &comparisons) {
+std::string csv_table(const std::vector<TextRow> &rows) {
   std::string text;
-  for (ComparisonRow row : comparison_rows(comparisons)) {
+  for (TextRow row : rows) {
     std::ranges::transform(row, row.begin(), csv_field);
     text += fmt::format("{}\n", fmt::join(row, ","));
   }
   return text;
 }
 
-std::string comparison_markdown(const std::vector<Comparison> &comparisons) {
+std::string markdown_table(const std::vector<TextRow> &rows) {
   std::string text;
-  for (const ComparisonRow &row : comparison_rows(comparisons)) {
+  for (const TextRow &row : rows) {
     const bool is_header = text.empty();
-    text += fmt::format("| {} |\n", fmt::join(row, " | "));
+    TextRow escaped = row;
+    for (std::string &field : escaped)
+      for (std::size_t at = field.find('|'); at != std::string::npos; at = field.find('|', at + 2))
+        field.insert(at, 1, '\\');
+    text += fmt::format("| {} |\n", fmt::join(escaped, " | "));
     if (is_header)
       for (std::size_t k = 0; k < row.size(); ++k)
         text += k + 1 < row.size() ? "| --- " : "| --- |\n";

@@ -4,9 +4,11 @@
 #include "case_keys.hpp"
 #include "compare.hpp"
 #include "failure.hpp"
+#include "ledger.hpp"
 #include "motion.hpp"
 #include "new_case.hpp"
 #include "progress.hpp"
+#include "project.hpp"
 #include "run.hpp"
 #include <CLI/CLI.hpp>
 #include <atomic>
@@ -79,9 +81,9 @@ bool has_failed(const RunResult &result) {
   return result.summary && result.summary->status == "failed";
 }
 
-std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arguments) {
+std::vector<RunResult> compute_case(const CaseInput &input, const RunOptions &options) {
   listen_to_signals();
-  std::vector<RunResult> results = compute(input, run_options(arguments, input), march);
+  std::vector<RunResult> results = compute(input, options, march);
   for (const RunResult &result : results)
     if (has_failed(result))
       fmt::print(stderr, "{}: {}: {}\n", result.directory.string(), result.summary->failure,
@@ -92,6 +94,28 @@ std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arg
                "interrupted: {} of {} runs to finish; the same command goes on from the last checkpoint\n",
                unfinished, results.size());
   return results;
+}
+
+std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arguments) {
+  return compute_case(input, run_options(arguments, input));
+}
+
+// Computes these cases of the project where they are not finished, into the table; whether all are now.
+bool add_project_cases(const std::vector<std::string> &names, const fs::path &published,
+                       const Arguments &arguments, RunTable &table) {
+  for (const std::string &name : names) {
+    const auto found = find_project_case(published.parent_path().parent_path(), name);
+    if (!found || table.has(name))
+      continue;
+    const CaseInput input = read_case(found->file);
+    Arguments where = arguments;
+    where.out = found->stored.string();
+    const std::vector<RunResult> results = compute_case(input, where);
+    if (std::ranges::any_of(results, is_interrupted))
+      return false;
+    table.add(name, results);
+  }
+  return true;
 }
 
 // One line a run, for programs that share the runs out: its number, the name of its directory, its identity, what
@@ -131,12 +155,17 @@ int run(const Arguments &arguments) {
 
 int check(const Arguments &arguments) {
   const CaseInput input = read_case(arguments.path, arguments.overrides);
-  const auto table = find_expectations(input.file);
-  const auto expectations = table ? read_expectations(*table, input.name) : std::vector<Expectation>();
+  const auto published = find_expectations(input.file);
+  const auto expectations =
+      published ? expectations_of(read_expectations(*published), input.name) : std::vector<Expectation>();
   const std::vector<RunResult> results = compute_case(input, arguments);
   if (std::ranges::any_of(results, is_interrupted))
     return interrupted;
-  std::vector<Comparison> comparisons = compare(expectations, results);
+  RunTable table;
+  table.add(input.name, results);
+  if (published && !add_project_cases(referenced_cases(expectations), *published, arguments, table))
+    return interrupted;
+  std::vector<Comparison> comparisons = compare(expectations, input.name, table);
   // Who chooses some of the runs does not ask for the others.
   if (!arguments.overrides.empty())
     std::erase_if(comparisons, &Comparison::no_such_run);
@@ -144,23 +173,53 @@ int check(const Arguments &arguments) {
     return has_failed(r) && !failure_is_expected(comparisons, r);
   };
   const auto failures = std::ranges::count_if(results, unexpected);
-  const auto agreeing = std::ranges::count_if(comparisons, &Comparison::agrees);
-  const bool all = agreeing == std::ssize(comparisons);
+  const auto count = [&](Verdict verdict) {
+    return std::ranges::count(comparisons, verdict, &Comparison::verdict);
+  };
+  const bool all = std::ranges::all_of(comparisons, &Comparison::as_recorded);
+  const std::vector<TextRow> rows = comparison_rows(comparisons);
   if (comparisons.empty())
     fmt::print(stderr, "warning: no expectations for {}\n", input.name);
   else
-    fmt::print("\n{}\n", comparison_table(comparisons));
+    fmt::print("\n{}\n", text_table(rows));
   if (!arguments.table.empty()) {
-    write_atomically(arguments.table + ".csv", comparison_csv(comparisons));
-    write_atomically(arguments.table + ".md", comparison_markdown(comparisons));
+    write_atomically(arguments.table + ".csv", csv_table(rows));
+    write_atomically(arguments.table + ".md", markdown_table(rows));
   }
-  fmt::print("{}: {}: {} of {} rows agree, {} runs failed unexpectedly\n", input.name,
+  fmt::print("{}: {}: {} of {} rows agree, {} differ, {} not decidable; {} runs failed unexpectedly\n",
+             input.name,
              failures > 0          ? "FAILS"
              : comparisons.empty() ? "NOTHING TO COMPARE"
-             : all                 ? "AGREES"
-                                   : "DIFFERS",
-             agreeing, comparisons.size(), failures);
+             : all                 ? "AS RECORDED"
+                                   : "NOT AS RECORDED",
+             count(Verdict::agrees), comparisons.size(), count(Verdict::differs),
+             count(Verdict::not_decidable), failures);
   return failures > 0 ? numerics_failed : all ? done : differs;
+}
+
+// All cases that the table of published values speaks of.
+int ledger(const Arguments &arguments) {
+  const auto published = find_expectations(fs::current_path() / "case.toml");
+  if (!published)
+    throw InputError("error: there is no tables/published.csv here or above\n");
+  const std::vector<Expectation> expectations = read_expectations(*published);
+  std::vector<std::string> names = referenced_cases(expectations);
+  for (const Expectation &row : expectations)
+    names.push_back(row.case_name);
+  RunTable table;
+  if (!add_project_cases(names, *published, arguments, table))
+    return interrupted;
+  std::vector<Comparison> comparisons;
+  for (const Expectation &row : expectations)
+    for (const std::string &name : row.case_name == "*" ? table.cases() : std::vector{row.case_name}) {
+      const std::vector<Comparison> more = compare({row}, name, table);
+      comparisons.insert(comparisons.end(), more.begin(), more.end());
+    }
+  const Ledger ledger = make_ledger(comparisons);
+  write_atomically(arguments.table + ".csv", ledger.csv);
+  write_atomically(arguments.table + ".md", ledger.markdown);
+  fmt::print("{}: {}; {} rows not as recorded\n", arguments.table, ledger.summary, ledger.not_as_recorded);
+  return ledger.not_as_recorded == 0 ? done : differs;
 }
 
 int show(const Arguments &arguments) {
@@ -216,11 +275,15 @@ void add_case(CLI::App &command, Arguments &arguments) {
                      "cases through results/runs");
 }
 
-void add_computing(CLI::App &command, Arguments &arguments) {
-  add_case(command, arguments);
+void add_jobs(CLI::App &command, Arguments &arguments) {
   command.add_option("--jobs", arguments.jobs, "runs at a time")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+}
+
+void add_computing(CLI::App &command, Arguments &arguments) {
+  add_case(command, arguments);
+  add_jobs(command, arguments);
   command.add_flag("--fresh", arguments.fresh, "compute again what is finished, from the start");
   command
       .add_option("--time-limit", arguments.time_limit, "leave checkpoints and stop after so many seconds")
@@ -251,6 +314,13 @@ int run_command(int argc, char **argv) {
   check_app.add_option("--table", arguments.table, "write the comparison to TABLE.csv and TABLE.md, too")
       ->option_text("TABLE");
   check_app.callback([&] { code = check(arguments); });
+  CLI::App &ledger_app = *app.add_subcommand(
+      "ledger", "compute what is missing of all cases and write the ledger of the paper's claims");
+  add_jobs(ledger_app, arguments);
+  ledger_app.add_option("--table", arguments.table, "where to: TABLE.csv and TABLE.md")
+      ->option_text("TABLE")
+      ->required();
+  ledger_app.callback([&] { code = ledger(arguments); });
   CLI::App &show_app =
       *app.add_subcommand("show", "the resolved input of every run, and what there is of it");
   add_case(show_app, arguments);

@@ -4,6 +4,7 @@
 #include "resolution.hpp"
 #include "time_step.hpp"
 #include <algorithm>
+#include <array>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <fmt/format.h>
@@ -284,21 +285,52 @@ Case companion(const Case &physics) {
   return coarse;
 }
 
-// |fine - coarse| of what summary.json reports, at the last row.
+struct Estimated {
+  const char *name;
+  double SeriesRow::*value;
+};
+constexpr std::array estimated{
+    Estimated{"time", &SeriesRow::time},
+    Estimated{"x_g", &SeriesRow::x_g},
+    Estimated{"v_g", &SeriesRow::v_g},
+    Estimated{"pressure_drop", &SeriesRow::pressure_drop},
+    Estimated{"max_stretch", &SeriesRow::max_stretch},
+    Estimated{"front_stretch", &SeriesRow::front_stretch},
+    Estimated{"min_film", &SeriesRow::min_film},
+    Estimated{"length", &SeriesRow::length},
+    Estimated{"deformation", &SeriesRow::deformation},
+    Estimated{"max_axial_residual", &SeriesRow::max_axial_residual},
+    Estimated{"max_radial_velocity", &SeriesRow::max_radial_velocity},
+};
+
+// The largest |fine - coarse| at equal x_g along the way, as "v_g@x_g"; "x_g@time" from the time's.
+void add_history(std::map<std::string, double> &error, const std::vector<SeriesRow> &fine,
+                 const std::vector<SeriesRow> &coarse) {
+  constexpr double same_x_g = 1e-9;
+  auto other = coarse.begin();
+  for (const SeriesRow &row : fine) {
+    other = std::find_if(other, coarse.end(), [&](const SeriesRow &c) { return c.x_g > row.x_g - same_x_g; });
+    if (other == coarse.end())
+      return;
+    if (other->x_g > row.x_g + same_x_g)
+      continue;
+    const auto add = [&](const std::string &name, double difference) {
+      error[name] = std::max(error[name], std::abs(difference));
+    };
+    for (const Estimated &quantity : estimated)
+      add(std::string(quantity.name) + "@x_g", row.*quantity.value - (*other).*quantity.value);
+    add("x_g@time", (row.time - other->time) * row.v_g);
+  }
+}
+
+// |fine - coarse| of what summary.json reports, at the last row and along the way.
 std::map<std::string, double> differences(const std::vector<SeriesRow> &fine,
                                           const std::vector<SeriesRow> &coarse) {
-  const SeriesRow &a = fine.back();
-  const SeriesRow &b = coarse.back();
-  std::map<std::string, double> error{{"time", std::abs(a.time - b.time)},
-                                      {"x_g", std::abs(a.x_g - b.x_g)},
-                                      {"v_g", std::abs(a.v_g - b.v_g)},
-                                      {"pressure_drop", std::abs(a.pressure_drop - b.pressure_drop)},
-                                      {"max_stretch", std::abs(a.max_stretch - b.max_stretch)},
-                                      {"front_stretch", std::abs(a.front_stretch - b.front_stretch)},
-                                      {"min_film", std::abs(a.min_film - b.min_film)},
-                                      {"length", std::abs(a.length - b.length)},
-                                      {"deformation", std::abs(a.deformation - b.deformation)},
-                                      {"volume_change", std::abs(a.volume_change)}};
+  std::map<std::string, double> error;
+  for (const Estimated &quantity : estimated)
+    error[quantity.name] = std::abs(fine.back().*quantity.value - coarse.back().*quantity.value);
+  error["volume_change"] = std::abs(fine.back().volume_change);
+  add_history(error, fine, coarse);
   const std::optional<Peak> peak = entry_peak(fine);
   const std::optional<Peak> coarse_peak = entry_peak(coarse);
   if (peak && coarse_peak) {

@@ -37,6 +37,21 @@ std::string number_text(double value) {
   return text;
 }
 
+std::optional<double> to_number(const std::string &text) {
+  std::size_t used = 0;
+  try {
+    const double value = std::stod(text, &used);
+    return used == text.size() ? std::optional(value) : std::nullopt;
+  } catch (const std::exception &) {
+    return std::nullopt;
+  }
+}
+
+std::string trimmed(const std::string &text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
   std::string best;
   std::size_t smallest = std::max<std::size_t>(1, word.size() / 3) + 1;

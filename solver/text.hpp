@@ -1,5 +1,6 @@
 #pragma once
 // Numbers and words as text.
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,6 +9,12 @@ namespace capsule {
 
 // The shortest decimal text that reads back as the same double: "0.2", "15", "1e-5", "nan", "-inf".
 std::string number_text(double value);
+
+// The number that a text is, the whole of it.
+std::optional<double> to_number(const std::string &text);
+
+// Without spaces around it.
+std::string trimmed(const std::string &text);
 
 // The candidate that a mistyped word most likely meant; empty if none is near. Counts inserted, deleted,
 // replaced and swapped letters and gives up beyond a third of the word; a word that was cut short counts as

@@ -1,6 +1,8 @@
-// Computed against expected values: reading the table, choosing runs, distances, statuses, mistakes.
+// Computed against expected values: reading the table, choosing runs, distances, bounds, statuses, verdicts and their
+// record, mistakes; the ledger.
 #include "compare.hpp"
 #include "failure.hpp"
+#include "ledger.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 
@@ -8,27 +10,35 @@ using namespace capsule;
 
 namespace {
 
-const std::string header = "id,where,case,run,quantity,published,allowed,reason\n";
+const std::string header =
+    "id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,converged,verdict,evidence\n";
 
-RunResult result_with(double viscosity_ratio, double v_g, const std::filesystem::path &directory = {}) {
+RunResult result_with(double viscosity_ratio, double v_g) {
   RunResult result;
   result.input.physics.flow.viscosity_ratio = viscosity_ratio;
   result.input.physics.membrane.law = LawName::skalak;
   result.input.name = "viscosity_ratio=" + std::to_string(static_cast<int>(viscosity_ratio));
-  result.directory = directory;
   result.summary = Summary{"reached", "", "", {{"v_g", v_g}, {"volume_change", -2e-4}}, {{"v_g", 3e-5}}};
   return result;
 }
 
+// A row that is no claim of the paper and should agree, from its first eight fields.
+std::string plain(const std::string &fields) {
+  return fields + ",,,,,agrees,\n";
+}
+
 std::vector<Comparison> compared(const std::string &rows, const std::vector<RunResult> &results) {
   const TemporaryDirectory directory;
-  return compare(read_expectations(directory.write("published.csv", header + rows), "fig"), results);
+  RunTable table;
+  table.add("fig", results);
+  const auto all = read_expectations(directory.write("published.csv", header + rows));
+  return compare(expectations_of(all, "fig"), "fig", table);
 }
 
 std::string mistake_in(const std::string &table) {
   const TemporaryDirectory directory;
   try {
-    read_expectations(directory.write("published.csv", table), "fig");
+    read_expectations(directory.write("published.csv", table));
   } catch (const InputError &error) {
     return error.what();
   }
@@ -39,104 +49,150 @@ void check_contains(const std::string &text, const std::string &part) {
   BOOST_CHECK_MESSAGE(text.find(part) != std::string::npos, "'" << part << "' is not in:\n" << text);
 }
 
+Verdict verdict(const std::string &published, const std::string &allowed) {
+  return compared(plain("a,T,fig,,v_g," + published + "," + allowed + ","), {result_with(1, 2.0)})
+      .at(0)
+      .verdict;
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_CASE(a_row_speaks_of_the_runs_it_selects) {
   const std::vector<RunResult> results{result_with(1, 1.2), result_with(5, 1.3)};
-  const auto rows =
-      compared("a,Table 2,fig,viscosity_ratio=5,v_g,1.3,0.1 %,why\n"
-               "b,Table 2,fig,flow.viscosity_ratio=1.0; law=skalak,v_g,1.2,0.1 %,\"because, of \"\"it\"\"\"\n"
-               "c,everywhere,fig,,volume_change,0,0.001,\n"
-               "d,Table 9,another,viscosity_ratio=5,v_g,7,0.1 %,\n"
-               "e,Table 2,fig,viscosity_ratio=10,v_g,1.3,0.1 %,\n"
-               "f,Table 2,fig,membrane.law=neo-hookean,v_g,1.3,0.1 %,\n",
-               results);
-  BOOST_REQUIRE(rows.size() == 6u);
+  const auto rows = compared(
+      plain("a,Table 2,fig,viscosity_ratio=5,v_g,1.3,0.1 %,why") +
+          plain(
+              "b,Table 2,fig,flow.viscosity_ratio=1.0; law=skalak,v_g,1.2,0.1 %,\"because, of \"\"it\"\"\"") +
+          plain("c,everywhere,*,,volume_change,0,0.001,") +
+          plain("d,Table 9,another,viscosity_ratio=5,v_g,7,0.1 %,") +
+          plain("e,Table 2,fig,viscosity_ratio=10,v_g,1.3,0.1 %,") +
+          plain("f,Table 2,fig,membrane.law=neo-hookean,v_g,1.3,0.1 %,") +
+          plain("g,Table 2,fig,,v_g{viscosity_ratio=5}/v_g{viscosity_ratio=1},1.08,0.01,"), // once
+      results);
+  BOOST_REQUIRE(rows.size() == 7u);
   BOOST_TEST(rows[0].run == "viscosity_ratio=5");
-  BOOST_TEST(rows[0].agrees);
+  BOOST_TEST((rows[0].verdict == Verdict::agrees && rows[0].as_recorded()));
   BOOST_TEST(rows[0].estimate == "3e-05");
   BOOST_TEST(rows[1].run == "viscosity_ratio=1");
-  BOOST_TEST(rows[1].agrees);
+  BOOST_TEST(rows[1].as_recorded());
   BOOST_TEST(rows[1].expected.reason == "because, of \"it\"");
-  BOOST_TEST((rows[2].agrees && rows[3].agrees));
+  BOOST_TEST((rows[2].as_recorded() && rows[3].as_recorded()));
   BOOST_TEST(rows[4].computed == "no such run");
-  BOOST_TEST((!rows[4].agrees && !rows[5].agrees));
+  BOOST_TEST((!rows[4].as_recorded() && !rows[5].as_recorded()));
+  BOOST_TEST(rows[6].computed == "1.083333");
+  BOOST_TEST(rows[6].run == "");
+  BOOST_TEST(rows[6].as_recorded());
 }
 
 BOOST_AUTO_TEST_CASE(distances_relative_and_absolute) {
-  const auto agrees = [](const std::string &published, const std::string &allowed) {
-    return compared("a,T,fig,,"
-                    "v_g," +
-                        published + "," + allowed + ",\n",
-                    {result_with(1, 2.0)})
-        .at(0)
-        .agrees;
-  };
-  BOOST_TEST(agrees("2.1", "5 %"));
-  BOOST_TEST(!agrees("2.1", "4.7 %"));
-  BOOST_TEST(agrees("1.9", "5.3%"));
-  BOOST_TEST(!agrees("1.9", "5.2%"));
-  BOOST_TEST(agrees("2.5", "0.5"));
-  BOOST_TEST(!agrees("2.5", "0.49"));
-  BOOST_TEST(!agrees("-2", "10 %"));
-  const auto row = compared("a,\"T, U\",fig,,v_g,2.5,25 %,\n", {result_with(1, 2.0)}).at(0);
-  BOOST_TEST(row.distance == "-20 %");
-  const std::string table = comparison_table({row});
-  check_contains(table, "-20 %");
-  check_contains(table, "agrees\n");
-  BOOST_TEST(comparison_csv({row}) ==
-             "id,where,run,quantity,computed,own error,published,distance,allowed,verdict\n"
-             "a,\"T, U\",viscosity_ratio=1,v_g,2,3e-05,2.5,-20 %,25 %,agrees\n");
+  BOOST_TEST((verdict("2.1", "5 %") == Verdict::agrees));
+  BOOST_TEST((verdict("2.1", "4.7 %") == Verdict::differs));
+  BOOST_TEST((verdict("1.9", "5.3%") == Verdict::agrees));
+  BOOST_TEST((verdict("1.9", "5.2%") == Verdict::differs));
+  BOOST_TEST((verdict("2.5", "0.5") == Verdict::agrees));
+  BOOST_TEST((verdict("2.5", "0.49") == Verdict::differs));
+  BOOST_TEST((verdict("-2", "10 %") == Verdict::differs));
+  const auto row = compared(plain("a,\"T, U\",fig,,v_g,2.5,25 %,"), {result_with(1, 2.0)});
+  BOOST_TEST(row.at(0).distance == "-20 %");
+  const auto rows = comparison_rows(row);
+  check_contains(text_table(rows), "-20 %");
+  check_contains(text_table(rows), "agrees\n");
+  BOOST_TEST(csv_table(rows) ==
+             "id,where,run,quantity,computed,converged,own error,published,distance,allowed,verdict\n"
+             "a,\"T, U\",viscosity_ratio=1,v_g,2,,3e-05,2.5,-20 %,25 %,agrees\n");
   check_contains(
-      comparison_markdown({row}),
-      "| --- |\n| a | T, U | viscosity_ratio=1 | v_g | 2 | 3e-05 | 2.5 | -20 % | 25 % | agrees |\n");
+      markdown_table(rows),
+      "| --- |\n| a | T, U | viscosity_ratio=1 | v_g | 2 |  | 3e-05 | 2.5 | -20 % | 25 % | agrees |\n");
+  BOOST_TEST(markdown_table({{"a|b"}}) == "| a\\|b |\n| --- |\n");
 }
 
-BOOST_AUTO_TEST_CASE(quantities_along_the_way) {
-  const TemporaryDirectory directory;
-  directory.write("series.csv", "time,x_g,v_g\n0,-4,1\n10,-2,3\n20,6,2\n");
-  const std::vector<RunResult> results{result_with(1, 1, directory.path)};
-  const auto computed = [&](const std::string &quantity) {
-    return compared("a,T,fig,," + quantity + ",1,1,\n", results).at(0).computed;
-  };
-  BOOST_TEST(computed("x_g@time=15") == "2");
-  BOOST_TEST(computed("x_g@time=10") == "-2");
-  BOOST_TEST(computed("v_g@x_g=-3") == "2");
-  BOOST_TEST(computed("time@v_g=2.5") == "7.5"); // the first time it passes
-  BOOST_TEST(computed("x_g@time=20.1") == "no value");
-  BOOST_TEST(computed("x_g@tim=15") == "no value");
-  BOOST_TEST(computed("x_g@time") == "no value");
-  BOOST_TEST(computed("v_h") == "no value");
+BOOST_AUTO_TEST_CASE(bounds) {
+  BOOST_TEST((verdict("<2.1", "") == Verdict::agrees));
+  BOOST_TEST((verdict("<2", "") == Verdict::differs));
+  BOOST_TEST((verdict(">1.9", "") == Verdict::agrees));
+  BOOST_TEST((verdict("> 2", "") == Verdict::differs));
 }
 
 BOOST_AUTO_TEST_CASE(statuses_and_failures) {
   RunResult failed = result_with(1, 1);
   failed.summary->status = "failed";
   failed.summary->failure = "wrinkled";
-  const auto rows = compared("a,T,fig,,status,failed:wrinkled,,\nb,T,fig,,status,failed,,\n", {failed});
-  BOOST_TEST((rows.at(0).agrees && rows.at(1).agrees));
+  const auto rows =
+      compared(plain("a,T,fig,,status,failed:wrinkled,,") + plain("b,T,fig,,status,failed,,"), {failed});
+  BOOST_TEST((rows.at(0).as_recorded() && rows.at(1).as_recorded()));
   BOOST_TEST(rows.at(0).computed == "failed:wrinkled");
   BOOST_TEST(failure_is_expected(rows, failed));
-  const auto other = compared("a,T,fig,,status,failed:folded,,\nb,T,fig,,v_g,1,1 %,\n", {failed});
-  BOOST_TEST(!other.at(0).agrees);
+  const auto other =
+      compared(plain("a,T,fig,,status,failed:folded,,") + plain("b,T,fig,,v_g,1,1 %,"), {failed});
+  BOOST_TEST(!other.at(0).as_recorded());
   BOOST_TEST(!failure_is_expected(other, failed));
+}
+
+// Neither a disagreement nor an agreement may come unrecorded.
+BOOST_AUTO_TEST_CASE(the_record_of_verdicts) {
+  const auto row = [](const std::string &published, const std::string &recorded) {
+    return compared("a,T,fig,,v_g," + published + ",0.1,,A,behaviour,,," + recorded + ",here\n",
+                    {result_with(1, 2)})
+        .at(0);
+  };
+  BOOST_TEST(row("2", "agrees").as_recorded());
+  BOOST_TEST(!row("3", "agrees").as_recorded());
+  BOOST_TEST(row("3", "differs").as_recorded());
+  BOOST_TEST(!row("2", "differs").as_recorded());
+  const Comparison open = row("high", "not decidable");
+  BOOST_TEST(open.as_recorded());
+  BOOST_TEST(open.computed == "2");
+  BOOST_TEST(open.distance == "");
+}
+
+// The error estimate of a published number must be at most a fifth of the distance that the verdict speaks of.
+BOOST_AUTO_TEST_CASE(a_verdict_needs_a_small_error) {
+  const auto row = [](const std::string &quantity, const std::string &published, const std::string &allowed,
+                      const std::string &kind, const std::string &recorded) {
+    return compared("a,T,fig,," + quantity + "," + published + "," + allowed + ",,A," + kind + ",,," +
+                        recorded + ",here\n",
+                    {result_with(1, 2)})
+        .at(0);
+  };
+  BOOST_TEST(row("v_g", "2", "1.6e-4", "number", "agrees").as_recorded());
+  BOOST_TEST(!row("v_g", "2", "1.4e-4", "number", "agrees").as_recorded());
+  BOOST_TEST(row("v_g", "2", "1.4e-4", "behaviour", "agrees").as_recorded());
+  BOOST_TEST(row("v_g", "2.00016", "1e-5", "number", "differs").as_recorded());
+  BOOST_TEST(!row("v_g", "2.00014", "1e-5", "number", "differs").as_recorded());
+  BOOST_TEST(!row("volume_change", "0", "0.1", "number", "agrees").as_recorded()); // no estimate
+  // The converged value's error counts, where the quantity is one of the paper's numerics.
+  const auto both =
+      compared("a,T,fig,,volume_change,0,0.1,,A,number,,v_g,agrees,\n", {result_with(1, 2)}).at(0);
+  BOOST_TEST(both.as_recorded());
+  BOOST_TEST(both.converged == "2");
+  BOOST_TEST(both.estimate == "3e-05");
 }
 
 BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
   check_contains(mistake_in(""), "published.csv:1:1: error: the first line must be");
   check_contains(mistake_in("id,where\n"), "published.csv:1:1: error: the first line must be");
-  check_contains(mistake_in(header + "a,T,fig,,v_g,1\n"), "published.csv:2:1: error: 6 fields instead of 8");
+  check_contains(mistake_in(header + "a,T,fig,,v_g,1\n"), "published.csv:2:1: error: 6 fields instead of 14");
   check_contains(mistake_in(header + "\n"), "published.csv:2:1: error: 1 fields");
-  check_contains(mistake_in(header + "a,T,x,,v_g,high,1 %,\n"), "published 'high' is not a number");
-  check_contains(mistake_in(header + "a,T,x,,v_g,1,,\n"), "allowed '' is not a positive number");
-  check_contains(mistake_in(header + "a,T,x,,v_g,1,-1 %,\n"), "allowed '-1 %' is not");
-  check_contains(mistake_in(header + "a,T,x,,v_g,0,1 %,\n"), "nothing can be relative");
-  check_contains(mistake_in(header + "a,T,x,viscosity=1,v_g,1,1 %,\n"), "unknown key 'viscosity'");
-  check_contains(mistake_in(header + "a,T,x,all,v_g,1,1 %,\n"), "the run 'all' is not of the form");
-  const std::string all = mistake_in("id\n\na,T,x,,v_g,high,1 %,\na,T,fig,,v_g,1,0,\n");
+  const auto mistake = [](const std::string &fields) { return mistake_in(header + plain(fields)); };
+  check_contains(mistake("a,T,x,,v_g,high,1 %,"), "published 'high' is not a number");
+  check_contains(mistake("a,T,x,,v_g,<high,,"), "published '<high' is not a number");
+  check_contains(mistake("a,T,x,,v_g,<1,0.1,"), "a bound allows no distance");
+  check_contains(mistake("a,T,x,,v_g,1,,"), "allowed '' is not a positive number");
+  check_contains(mistake("a,T,x,,v_g,1,-1 %,"), "allowed '-1 %' is not");
+  check_contains(mistake("a,T,x,,v_g,0,1 %,"), "nothing can be relative");
+  check_contains(mistake("a,T,x,viscosity=1,v_g,1,1 %,"), "unknown key 'viscosity'");
+  check_contains(mistake("a,T,x,all,v_g,1,1 %,"), "the run 'all' is not of the form");
+  check_contains(mistake("a,T,x,,v_g +,1,1 %,"), "a number or a name is missing");
+  check_contains(mistake("a,T,x,,v_g{viscosity=1},1,1 %,"), "unknown key 'viscosity'");
+  const std::string row = "a,T,x,,v_g,1,1 %,,";
+  check_contains(mistake_in(header + row + "A,number,,,yes,\n"),
+                 "the verdict 'yes' is none of 'agrees', 'differs'");
+  check_contains(mistake_in(header + row + "A,number,,,differs,\n"), "evidence is missing");
+  check_contains(mistake_in(header + row + "A,size,,,agrees,\n"), "the kind 'size' is none of");
+  const std::string all = mistake_in("id\n\n" + plain("a,T,x,,v_g,high,1 %,") + plain("a,T,fig,,v_g,1,0,"));
   for (const char *place : {":1:1: error: ", ":2:1: error: ", ":3:1: error: ", ":4:1: error: "})
     check_contains(all, place);
-  BOOST_TEST(mistake_in(header + "a,T,fig,,v_g,1,1 %,\r\n") == "no error");
+  BOOST_TEST(mistake_in(header + "a,T,fig,,v_g,1,1 %,,,,,,agrees,\r\n") == "no error");
 }
 
 BOOST_AUTO_TEST_CASE(the_table_is_found_above_the_case) {
@@ -146,4 +202,27 @@ BOOST_AUTO_TEST_CASE(the_table_is_found_above_the_case) {
   const auto table = directory.write("project/tables/published.csv", header);
   BOOST_REQUIRE(find_expectations(file));
   BOOST_TEST(std::filesystem::equivalent(*find_expectations(file), table));
+}
+
+// One line per row, with its worst run; a claim differs if one of its rows does.
+BOOST_AUTO_TEST_CASE(ledger_of_claims) {
+  const auto comparisons =
+      compared("a-1,T,fig,,v_g,<2,,,A,bound,says,,agrees,\n"
+               "a-2,T,fig,viscosity_ratio=5,v_g,1,0.1,,A,number,says,,differs,there\n"
+               "b,T,fig,viscosity_ratio=5,v_g,much,,,B,number,says,,not decidable,there\n"
+               "c,T,fig,viscosity_ratio=5,v_g,1.3,0.1,why,C,number,says,,agrees,\n" +
+                   plain("d,T,fig,,v_g,7,0.1 %,"),
+               {result_with(1, 1.2), result_with(5, 1.3)});
+  const Ledger ledger = make_ledger(comparisons);
+  BOOST_TEST(ledger.summary == "3 claims of the paper in 4 rows: 1 agree, 1 differ, 1 cannot be decided");
+  BOOST_TEST(ledger.not_as_recorded == 0);
+  check_contains(ledger.csv, "A,a-1,T,bound,says,<2,,1.3,3e-05,-0.7,,agrees,,fig: viscosity_ratio=5,v_g\n");
+  check_contains(ledger.csv,
+                 "A,a-2,T,number,says,1,,1.3,3e-05,+0.3,0.1,differs,there,fig: viscosity_ratio=5,v_g\n");
+  check_contains(ledger.markdown, "| C | c | T | number | says | 1.3 |  | 1.3 |");
+  BOOST_TEST(std::ranges::count(ledger.csv, '\n') == 5);
+  const auto wrong =
+      compared("a,T,fig,,v_g,<1.25,,,A,bound,says,,agrees,\n", {result_with(1, 1.2), result_with(5, 1.3)});
+  BOOST_TEST(make_ledger(wrong).not_as_recorded == 1);
+  check_contains(make_ledger(wrong).csv, ",NOT AS RECORDED,");
 }

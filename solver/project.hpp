@@ -1,0 +1,19 @@
+#pragma once
+// Where the project keeps its cases, beside tables/published.csv:
+//   cases/<id>/case.toml, validation/<id>/case.toml
+//   cases/<id>/<name>.toml   whose results may be stored in cases/<id>/<name>/
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace capsule {
+
+struct ProjectCase {
+  std::filesystem::path file;   // what read_case takes
+  std::filesystem::path stored; // results kept with the sources; empty: they are computed
+};
+
+// Nothing if there is no such case.
+std::optional<ProjectCase> find_project_case(const std::filesystem::path &root, const std::string &name);
+
+} // namespace capsule

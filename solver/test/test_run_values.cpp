@@ -1,0 +1,109 @@
+// What names mean in a run: summary, series, profiles, keys; other runs and cases; errors carried through.
+#include "failure.hpp"
+#include "run_values.hpp"
+#include "temporary_directory.hpp"
+#include <boost/test/unit_test.hpp>
+
+using namespace capsule;
+
+namespace {
+
+// Two runs of the case "here" and one of the case "there".
+struct Project : TemporaryDirectory {
+  RunTable table;
+
+  RunResult run(double viscosity_ratio, double v_g) const {
+    RunResult result;
+    result.input.physics.flow.viscosity_ratio = viscosity_ratio;
+    result.input.physics.capsule.radius = 0.9;
+    result.input.physics.membrane.law = LawName::skalak;
+    result.directory = path;
+    result.summary =
+        Summary{"reached", "", "", {{"v_g", v_g}, {"roughness", 0.5}}, {{"v_g", 0.01}, {"v_g@x_g", 0.02}}};
+    return result;
+  }
+
+  Project() {
+    write("series.csv", "time,x_g,v_g\n0,-4,1\n10,-2,3\n20,6,2\n");
+    write("profiles.csv", "time,x_g,S,x,r\n0,-4,0,-5,0\n0,-4,1,-4,1\n0,-4,2,-3,0\n"
+                          "20,6,0,5,0\n20,6,1,6,0.5\n20,6,2,7,0\n");
+    table.add("here", {run(1, 2), run(5, 4)});
+    table.add("there", {run(1, 8)});
+  }
+
+  double value(const std::string &text, std::size_t which = 0) const {
+    return Expression(text).value([&](const Reference &reference) {
+      return table.values(reference, "here", &table.runs_of("here").at(which));
+    });
+  }
+  std::string nothing(const std::string &text) const {
+    try {
+      value(text);
+    } catch (const NoValue &reason) {
+      return reason.what();
+    }
+    return "a value";
+  }
+};
+
+} // namespace
+
+BOOST_FIXTURE_TEST_CASE(of_the_end_and_of_the_input, Project) {
+  BOOST_TEST(value("v_g") == 2);
+  BOOST_TEST(value("v_g", 1) == 4);
+  BOOST_TEST(value("capsule.radius*radius") == 0.81, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(nothing("v_h") == "no value");
+  BOOST_TEST(nothing("law") == "no value"); // no number
+}
+
+BOOST_FIXTURE_TEST_CASE(along_the_way, Project) {
+  BOOST_TEST(value("x_g@time=15") == 2);
+  BOOST_TEST(value("x_g@time=10") == -2);
+  BOOST_TEST(value("v_g@x_g=-3") == 2);
+  BOOST_TEST(value("time@v_g=2.5") == 7.5); // the first time it passes
+  BOOST_TEST(value("max(v_g@x_g=-3..100)") == 3);
+  BOOST_TEST(value("min(v_g@x_g=-3..100)") == 2);
+  BOOST_TEST(value("min(v_g@x_g=-4..-3)") == 1);
+  BOOST_TEST(nothing("max(v_g@x_g=7..8)") == "no value");
+  for (const char *text : {"x_g@time=20.1", "x_g@tim=15", "v_g@x_g=0@time=1"})
+    BOOST_TEST(nothing(text) == "no value", text);
+}
+
+BOOST_FIXTURE_TEST_CASE(on_the_meridian, Project) {
+  BOOST_TEST(value("max(x)") == 7);
+  BOOST_TEST(value("max(x@time=0)") == -3);
+  BOOST_TEST(value("r@S=1.5") == 0.25);
+  BOOST_TEST(value("r@x_g=-4@S=0.5") == 0.5);
+  BOOST_TEST(value("max(x@x_g=-4@S=0..0.5)") == -4.5);
+  BOOST_TEST(value("distance(x@time=0, r@time=0, x - 10, r)") == 0.5); // the end is the flatter
+  BOOST_TEST(nothing("max(x@time=3)") == "no value");
+}
+
+BOOST_FIXTURE_TEST_CASE(of_other_runs, Project) {
+  BOOST_TEST(value("v_g{viscosity_ratio=5}/v_g") == 2);
+  BOOST_TEST(value("v_g{there: }/v_g") == 4);
+  BOOST_TEST(value("v_g{there: viscosity_ratio=1}/v_g{flow.viscosity_ratio=1.0; law=skalak}") == 4);
+  BOOST_TEST(value("max(v_g{viscosity_ratio=1|5|10})") == 4);
+  BOOST_TEST(value("max(v_g{})") == 4);
+  BOOST_TEST(nothing("v_g{viscosity_ratio=10}") == "no such run");
+  BOOST_TEST(nothing("v_g{law=neo-hookean}") == "no such run");
+  BOOST_TEST(nothing("v_g{nowhere: }") == "no such run");
+  BOOST_TEST(nothing("v_g{}") == "several values");
+  BOOST_CHECK_THROW(value("v_g{viscosity=10}"), InputError);
+}
+
+// Each value's own error, added: 0.01/2 + 4 * 0.01/4 for the quotient 4/2 of two runs.
+BOOST_FIXTURE_TEST_CASE(errors_add, Project) {
+  const auto error = [&](const std::string &text) {
+    return table.error_estimate(Expression(text), "here", &table.runs_of("here").at(0));
+  };
+  BOOST_TEST(error("3*v_g").value() == 0.03, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(error("v_g{viscosity_ratio=5}/v_g").value() == 0.005 + 0.01, boost::test_tools::tolerance(0.01));
+  BOOST_TEST(error("v_g - v_g").value() == 0.02, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(error("max(v_g{}) - min(v_g{})").value() == 0.02, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(error("v_g@x_g=0").value() == 0.02, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(error("radius^3").value() == 0);
+  BOOST_TEST(!error("roughness"));
+  BOOST_TEST(!error("v_g@time=3")); // estimated at equal x_g
+  BOOST_TEST(!error("v_g{viscosity_ratio=10}"));
+}
