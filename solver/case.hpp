@@ -2,6 +2,7 @@
 // A case: the physics and numerics of one run, complete and validated. All lengths are scaled with R_t,
 // velocities with Q/(pi R_t^2), times with pi R_t^3/Q, pressures with mu Q/(pi R_t^3), tensions with G,
 // bending moments with G R_t. The keys of a case file are the names below, joined by dots: "pore.exit_x".
+#include "physical.hpp"
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,11 @@ struct Case {
     std::optional<double> x_g;
     std::optional<double> time;
   } until;
+  // What the dimensionless values above may follow from, physical.hpp.
+  struct {
+    Quantity tube_radius, viscosity, flow_rate, pressure, pore_length;
+    Quantity shear_modulus, young_modulus, bending_modulus, capsule_radius, internal_viscosity;
+  } physical;
   struct {
     std::vector<double> profiles_at_x_g;
     std::vector<double> profiles_at_time;

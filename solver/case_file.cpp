@@ -434,6 +434,7 @@ struct Builder {
   Reader &reader;
   const Selection &selection;
   RunInput run;
+  std::vector<std::string> derived; // keys whose value follows from the physical ones
 
   const Assignment::Given *given(const std::string &name) const {
     for (std::size_t i = 0; i < reader.assignments.size(); ++i)
@@ -469,6 +470,11 @@ struct Builder {
     }
   }
 
+  // What a directory may be called by: no unit, no slash.
+  std::string si_number(const Key &key) const {
+    return number_text(std::get<Measured>(key.field).member.of(run.physics).si);
+  }
+
   void take_values() {
     for (std::size_t i = 0; i < reader.assignments.size(); ++i) {
       const Assignment &assignment = reader.assignments[i];
@@ -476,10 +482,48 @@ struct Builder {
       set_value(*assignment.key, value, run.physics);
       if (assignment.sweep) {
         const auto *word = std::get_if<std::string>(&value);
+        const bool measured = std::holds_alternative<Measured>(assignment.key->field);
         run.name += fmt::format("{}{}={}", run.name.empty() ? "" : ",", last_component(assignment.key->name),
-                                word ? *word : value_text(value));
+                                measured ? si_number(*assignment.key)
+                                : word   ? *word
+                                         : value_text(value));
       }
     }
+  }
+
+  // The dimensionless values that follow from the physical ones; a value that is given too must agree.
+  void derive() {
+    if (!has_physical(run.physics))
+      return;
+    if (const auto why = physical_complaint(run.physics)) {
+      complain(physical_keys(), *why, "`capsule keys` tells what physical.* means");
+      return;
+    }
+    for (const Derived &value : derived_values(run.physics)) {
+      const Key &key = *find_key(value.key);
+      Case before = run.physics;
+      if (auto complaint = set_value(key, value.value, run.physics))
+        complain({value.from}, complaint->message, complaint->hint);
+      const double stated = number_of(key, before);
+      if (given(value.key) && std::abs(stated / value.value - 1) > 1e-9)
+        complain({value.key},
+                 fmt::format("{} = {}, but {} makes it {}", value.key, number_text(stated), value.from,
+                             number_text(value.value)),
+                 "leave one of them out");
+      derived.push_back(value.key);
+    }
+  }
+
+  static std::vector<std::string> physical_keys() {
+    std::vector<std::string> names;
+    for (const Key &key : keys())
+      if (std::holds_alternative<Measured>(key.field))
+        names.push_back(key.name);
+    return names;
+  }
+
+  static double number_of(const Key &key, const Case &physics) {
+    return std::get<Member<double>>(key.field).of(physics);
   }
 
   // Defaults that depend on other keys.
@@ -502,7 +546,7 @@ struct Builder {
     bool all = true;
     for (const Key &key : keys()) {
       const bool scale = key.name == "capsule.radius" && run.physics.flow.type == FlowType::extension;
-      if (!key.required || given(key.name) || scale)
+      if (!key.required || given(key.name) || scale || std::ranges::find(derived, key.name) != derived.end())
         continue;
       all = false;
       if (std::ranges::find(reader.meant, key.name) != reader.meant.end())
@@ -653,9 +697,10 @@ std::vector<RunInput> build_runs(Reader &reader) {
   const bool valid = reader.errors.empty();
   std::vector<RunInput> runs;
   for (const Selection &selection : all_selections(reader.assignments)) {
-    Builder builder{reader, selection, {}};
+    Builder builder{reader, selection, {}, {}};
     builder.apply_preset();
     builder.take_values();
+    builder.derive();
     builder.complete();
     if (builder.has_required() && valid)
       builder.check_physics();

@@ -26,15 +26,19 @@ constexpr Range from_to(double low, double high) {
 
 // `Access` is a generic lambda that returns a reference into a Case, constant or not.
 template <class T, class Access>
-Field member(Access /*at*/) {
-  return Member<T>{[](Case &c) -> T & { return Access{}(c); },
-                   [](const Case &c) -> const T & { return Access{}(c); }};
+Member<T> member(Access /*at*/) {
+  return {[](Case &c) -> T & { return Access{}(c); }, [](const Case &c) -> const T & { return Access{}(c); }};
 }
 
 template <class E, class Access>
 Field choice(Access /*at*/, std::vector<std::string> names) {
   return Choice{std::move(names), [](Case &c, int index) { Access{}(c) = static_cast<E>(index); },
                 [](const Case &c) { return static_cast<int>(Access{}(c)); }};
+}
+
+template <class Access>
+Field measured(Access at, Dimension dimension) {
+  return Measured{member<Quantity>(at), dimension};
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a member cannot stand in parentheses
@@ -105,6 +109,26 @@ std::vector<Key> make_keys() {
        member<std::optional<double>>(CAPSULE_AT(until.x_g)), any, "11.84, unless until.time is given"},
       {"until.time", "stop at this time", member<std::optional<double>>(CAPSULE_AT(until.time)), above(0),
        "none"},
+
+      {"physical.tube_radius", "R_t with its unit; with this section results come in SI units too",
+       measured(CAPSULE_AT(physical.tube_radius), dimension::length)},
+      {"physical.viscosity", "of the external liquid, mu",
+       measured(CAPSULE_AT(physical.viscosity), dimension::viscosity)},
+      {"physical.flow_rate", "Q", measured(CAPSULE_AT(physical.flow_rate), dimension::flow_rate)},
+      {"physical.pressure", "instead of Q: drop over the mouth and a tube of pore_length without a capsule",
+       measured(CAPSULE_AT(physical.pressure), dimension::pressure)},
+      {"physical.pore_length", "of the tube that the pressure drives the liquid through",
+       measured(CAPSULE_AT(physical.pore_length), dimension::length)},
+      {"physical.shear_modulus", "surface shear modulus, G",
+       measured(CAPSULE_AT(physical.shear_modulus), dimension::tension)},
+      {"physical.young_modulus", "instead of G: surface Young modulus at small strain, E_s",
+       measured(CAPSULE_AT(physical.young_modulus), dimension::tension)},
+      {"physical.bending_modulus", "D, instead of membrane.bending_ratio",
+       measured(CAPSULE_AT(physical.bending_modulus), dimension::moment)},
+      {"physical.capsule_radius", "of the sphere of the same volume, instead of capsule.radius",
+       measured(CAPSULE_AT(physical.capsule_radius), dimension::length)},
+      {"physical.internal_viscosity", "instead of flow.viscosity_ratio",
+       measured(CAPSULE_AT(physical.internal_viscosity), dimension::viscosity)},
 
       {"output.profiles_at_x_g", "positions at which the profile is written",
        member<std::vector<double>>(CAPSULE_AT(output.profiles_at_x_g)), any, "none"},
@@ -211,6 +235,16 @@ struct Setter {
     member.in(physics) = std::move(sorted);
     return std::nullopt;
   }
+  std::optional<Complaint> operator()(const Measured &measured) const {
+    const auto *text = std::get_if<std::string>(&value);
+    if (!text)
+      return wrong_type(key, "a number with its unit in quotes", value);
+    const auto read = read_quantity(*text, measured.dimension);
+    if (const auto *why = std::get_if<std::string>(&read))
+      return Complaint{key.name + ": " + *why, "allowed: " + allowed_text(key)};
+    measured.member.in(physics) = std::get<Quantity>(read);
+    return std::nullopt;
+  }
   std::optional<Complaint> operator()(const Choice &choice) const {
     const auto *text = std::get_if<std::string>(&value);
     if (!text)
@@ -247,6 +281,11 @@ struct Getter {
   }
   std::optional<Value> operator()(const Member<std::vector<double>> &member) const {
     return member.of(physics).empty() ? std::nullopt : std::optional<Value>(member.of(physics));
+  }
+  std::optional<Value> operator()(const Measured &measured) const {
+    const Quantity &quantity = measured.member.of(physics);
+    return quantity.si == 0 ? std::nullopt
+                            : std::optional<Value>(quantity_text(quantity, measured.dimension));
   }
   std::optional<Value> operator()(const Choice &choice) const {
     return choice.names.at(static_cast<std::size_t>(choice.get(physics)));
@@ -306,6 +345,8 @@ std::string value_text(const Value &value) {
 std::string allowed_text(const Key &key) {
   if (const auto *choice = std::get_if<Choice>(&key.field))
     return quoted_list(choice->names);
+  if (const auto *measured = std::get_if<Measured>(&key.field))
+    return fmt::format("a number and a unit of {}, above 0", unit_text(measured->dimension));
   if (std::holds_alternative<Member<std::string>>(key.field))
     return "any text";
   if (std::holds_alternative<Member<int>>(key.field))
@@ -318,6 +359,8 @@ std::string allowed_text(const Key &key) {
 std::string default_text(const Key &key) {
   if (!key.automatic.empty())
     return key.automatic;
+  if (std::holds_alternative<Measured>(key.field))
+    return "none";
   return value_text(get_value(key, Case{}).value());
 }
 

@@ -37,14 +37,19 @@ struct Choice {
   void (*set)(Case &, int);
   int (*get)(const Case &);
 };
+// With a unit: "5 um".
+struct Measured {
+  Member<Quantity> member;
+  Dimension dimension;
+};
 using Field = std::variant<Member<std::string>, Member<double>, Member<int>, Member<std::optional<double>>,
-                           Member<std::vector<double>>, Choice>;
+                           Member<std::vector<double>>, Choice, Measured>;
 
 struct Key {
   std::string name;    // "flow.capillary_number"
   std::string meaning; // with the paper's symbol
   Field field;
-  Range range;
+  Range range = {};
   // How the value is found when the key is not given; empty: the value of a fresh Case.
   std::string automatic = {};
   bool required = false;
@@ -60,7 +65,7 @@ struct Complaint {
 };
 std::optional<Complaint> set_value(const Key &key, const Value &value, Case &physics);
 
-// No value: not given, chosen automatically.
+// No value: not given, chosen automatically. A quantity with its unit is a text, in SI units.
 std::optional<Value> get_value(const Key &key, const Case &physics);
 
 // As TOML writes it.

@@ -52,6 +52,11 @@ constexpr std::array series_columns{
     SeriesColumn{"roughness", &SeriesRow::roughness},
 };
 
+const SeriesColumn *find_series_column(std::string_view name) {
+  const auto found = std::ranges::find(series_columns, name, &SeriesColumn::name);
+  return found == series_columns.end() ? nullptr : &*found;
+}
+
 struct ProfileColumn {
   const char *name;
   Vector Profile::*values;
@@ -245,6 +250,53 @@ bool applies(std::string_view quantity, const Case &physics) {
   return !of_the_pore || physics.flow.type == FlowType::pore;
 }
 
+// What carries a unit, of a row and of a summary.
+struct PhysicalColumn {
+  const char *name;
+  double Scales::*scale;
+  Dimension of;
+};
+constexpr std::array physical_columns{
+    PhysicalColumn{"time", &Scales::time, dimension::time},
+    PhysicalColumn{"x_g", &Scales::length, dimension::length},
+    PhysicalColumn{"v_g", &Scales::velocity, dimension::velocity},
+    PhysicalColumn{"pressure_drop", &Scales::pressure, dimension::pressure},
+    PhysicalColumn{"min_film", &Scales::length, dimension::length},
+    PhysicalColumn{"length", &Scales::length, dimension::length},
+    PhysicalColumn{"peak_pressure_drop", &Scales::pressure, dimension::pressure},
+    PhysicalColumn{"x_g_at_peak", &Scales::length, dimension::length},
+};
+
+// The values of a summary in SI units, by their name and unit.
+Json physical_json(const Case &physics, const Json &summary) {
+  const Scales scales = physical_scales(physics);
+  Json json = Json::object();
+  for (const PhysicalColumn &column : physical_columns)
+    if (const Json &value = summary.at(column.name); value.is_number())
+      json[fmt::format("{} [{}]", column.name, unit_text(column.of))] =
+          value.get<double>() * scales.*column.scale;
+  json[fmt::format("tension scale [{}]", unit_text(dimension::tension))] = scales.tension;
+  return json;
+}
+
+// The series in SI units, the unit in each column's head.
+std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow> &series) {
+  const Scales scales = physical_scales(physics);
+  std::string text;
+  for (const PhysicalColumn &column : physical_columns)
+    if (find_series_column(column.name))
+      text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name, unit_text(column.of));
+  for (const SeriesRow &row : series) {
+    char separator = '\n';
+    for (const PhysicalColumn &column : physical_columns)
+      if (const SeriesColumn *source = find_series_column(column.name)) {
+        text += separator + number_text(row.*source->value * scales.*column.scale);
+        separator = ',';
+      }
+  }
+  return text + "\n";
+}
+
 Json summary_json(const Case &physics, const Outcome &outcome, const Effort &effort) {
   Json json;
   json["status"] = status_text(outcome.status);
@@ -259,6 +311,8 @@ Json summary_json(const Case &physics, const Outcome &outcome, const Effort &eff
   const auto peak = entry_peak(series);
   put("peak_pressure_drop", peak ? std::optional(peak->pressure_drop) : std::nullopt);
   put("x_g_at_peak", peak ? std::optional(peak->x_g) : std::nullopt);
+  if (has_physical(physics))
+    json["physical"] = physical_json(physics, json);
   json["error_estimate"] = Json::object();
   for (const auto &[quantity, error] : outcome.error_estimate)
     json["error_estimate"][quantity] = finite_or_null(error);
@@ -309,8 +363,8 @@ Json provenance_json(const Case &physics, const Effort &effort) {
 
 bool is_result(const fs::path &file) {
   const std::string name = file.filename().string();
-  return name == "summary.json" || name == "series.csv" || name == "profiles.csv" ||
-         name == "resolved.toml" || name == "run.json" || name == "membrane.pvd" ||
+  return name == "summary.json" || name == "series.csv" || name == "series_physical.csv" ||
+         name == "profiles.csv" || name == "resolved.toml" || name == "run.json" || name == "membrane.pvd" ||
          (name.starts_with("membrane_") && name.ends_with(".vtp"));
 }
 
@@ -452,6 +506,8 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
                    const Effort &effort) {
   const std::vector<Profile> &profiles = outcome.last.profiles;
   write_atomically(directory / "series.csv", series_csv(outcome.last.series));
+  if (has_physical(physics))
+    write_atomically(directory / "series_physical.csv", physical_series_csv(physics, outcome.last.series));
   write_atomically(directory / "profiles.csv", profiles_csv(profiles));
   for (std::size_t i = 0; i < profiles.size(); ++i)
     write_atomically(directory / surface_name(i), surface_vtp(profiles[i]));
