@@ -18,7 +18,7 @@ help:
 	@echo 'make atlas           compute every study of validation/ and draw its figures, also those of studies that fail'
 	@echo 'make sweep CASE=cases/... [JOBS=n] [SSH=one,two,:]   share the runs of a case out to processes and machines'
 	@echo 'make test            run all tests'
-	@echo 'make bench           time the kernels'
+	@echo 'make bench           time kernels and steps; chart speed against accuracy (on a quiet machine)'
 	@echo 'make paper-numerics  compute Table 1 again with the numerics of the paper: half an hour or more'
 	@echo 'make clean           remove what was built, computed and drawn'
 
@@ -67,9 +67,14 @@ paper-numerics: build
 	  install -m 644 -D -t $(PAPER)/$${run##*/} $$run/{summary,run}.json $$run/series.csv $$run/resolved.toml; \
 	done
 
+# On a quiet machine: kernels and steps, then the chart of speed against accuracy.
 bench: build
 	@cmake --build build --target benchmarks
-	@for program in build/bench_*; do $$program; done
+	@mkdir -p results/benchmark
+	@for program in build/bench_*; do \
+	  $$program --benchmark_out=results/benchmark/$${program##*/}.csv --benchmark_out_format=csv; \
+	done
+	@cmake --build build --target study-speed-accuracy
 
 clean:
 	rm -rf build results figures/*/ figures/gallery.md tables/*.md report.html

@@ -13,7 +13,7 @@ profiles(run) = results(run)."/profiles.csv"
 # One number, NaN where there is none: of a summary.json, of this case's summaries and their error estimates, of
 # tables/published.csv, where the row speaks of this case.
 number(text) = text eq "" ? NaN : text + 0
-entry(directory, key) = number(system("awk -F'[:,]' '/^".key.":/ {printf \"%.16e\", $2}' ".directory."/summary.json"))
+entry(directory, key) = number(system("awk -F'[:,]' '/^".key.":/ {printf \"%.16e\", $2}' ".directory."/summary.json 2>/dev/null"))
 result_in(directory, name) = entry(directory, "  \"".name."\"")
 result(run, name) = result_in(results(run), name)
 error_of(run, name) = entry(results(run), "    \"".name."\"")

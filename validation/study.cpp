@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -66,6 +66,18 @@ std::vector<StudyRun> run_all(const std::string &directory, unsigned jobs,
   return computed;
 }
 
+History history_of(const std::vector<SeriesRow> &series) {
+  History history;
+  for (const SeriesRow &row : series) {
+    history["time"].push_back(row.time);
+    history["x_g"].push_back(row.x_g);
+    history["v_g"].push_back(row.v_g);
+    history["pressure_drop"].push_back(row.pressure_drop);
+    history["volume_change"].push_back(row.volume_change);
+  }
+  return history;
+}
+
 StudyRun read_run(const std::filesystem::path &directory) {
   StudyRun run{read_summary(directory), {}};
   std::ifstream file(directory / "series.csv");
@@ -75,23 +87,23 @@ StudyRun read_run(const std::filesystem::path &directory) {
   while (std::getline(file, line)) {
     const std::vector<std::string> cells = split(line);
     for (std::size_t k = 0; k < names.size(); ++k)
-      run.series[names[k]].push_back(std::stod(cells.at(k)));
+      run.history[names[k]].push_back(std::stod(cells.at(k)));
   }
-  if (run.series.empty())
+  if (run.history.empty())
     throw FileError((directory / "series.csv").string() + ": no rows");
   return run;
 }
 
-double history_error(const StudyRun &run, const StudyRun &reference, const std::string &quantity, double from,
-                     double to) {
+double history_error(const History &history, const History &reference, const std::string &quantity,
+                     double from, double to) {
   std::map<long, double> computed;
-  const std::vector<double> &x_g = run.series.at("x_g");
+  const std::vector<double> &x_g = history.at("x_g");
   for (std::size_t k = 0; k < x_g.size(); ++k)
     if (const GridPlace place = grid_place(x_g[k]); place.on_grid)
-      computed[place.index] = run.series.at(quantity)[k];
+      computed[place.index] = history.at(quantity)[k];
   double error = 0;
   double scale = 0;
-  const std::vector<double> &exact_x_g = reference.series.at("x_g");
+  const std::vector<double> &exact_x_g = reference.at("x_g");
   for (std::size_t k = 0; k < exact_x_g.size(); ++k) {
     const GridPlace place = grid_place(exact_x_g[k]);
     if (!place.on_grid || exact_x_g[k] < from - 1e-9 || exact_x_g[k] > to + 1e-9)
@@ -99,15 +111,17 @@ double history_error(const StudyRun &run, const StudyRun &reference, const std::
     const auto found = computed.find(place.index);
     if (found == computed.end())
       return std::numeric_limits<double>::infinity();
-    const double exact = reference.series.at(quantity)[k];
+    const double exact = reference.at(quantity)[k];
     error = std::max(error, std::abs(found->second - exact));
     scale = std::max(scale, std::abs(exact));
   }
   return error / scale;
 }
 
-void Table::add(const std::vector<std::string> &row) {
-  text_ += fmt::format("{}\n", fmt::join(row, ","));
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 } // namespace capsule

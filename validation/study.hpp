@@ -14,10 +14,14 @@ namespace capsule {
 int study_main(int argc, char **argv,
                const std::function<bool(const std::string &directory, unsigned jobs)> &study);
 
-// One run of a study, in its case's words.
+// Columns of series.csv.
+using History = std::map<std::string, std::vector<double>>;
+// Those that studies compare: time, x_g, v_g, pressure_drop, volume_change.
+History history_of(const std::vector<SeriesRow> &series);
+
 struct StudyRun {
   Summary summary;
-  std::map<std::string, std::vector<double>> series; // columns of series.csv
+  History history;
 };
 
 // Computes the runs, `jobs` at a time, or finds them computed already by this same program; results go to
@@ -29,15 +33,17 @@ StudyRun read_run(const std::filesystem::path &directory);
 
 // Largest difference of two histories of one quantity over the rows whose x_g is a multiple of 0.05 and lies
 // in [from, to], relative to the largest value of the second. Infinite if the first lacks a row.
-double history_error(const StudyRun &run, const StudyRun &reference, const std::string &quantity, double from,
-                     double to);
+double history_error(const History &history, const History &reference, const std::string &quantity,
+                     double from, double to);
 
-// Rows of numbers under a header, written at once.
+// Spent by this process so far.
+double cpu_seconds();
+
+// Rows under a header, each with its line's end missing, written at once.
 class Table {
 public:
   explicit Table(const std::string &header) : text_(header + "\n") {}
-  // A row; texts must hold no comma.
-  void add(const std::vector<std::string> &row);
+  void add(const std::string &row) { text_ += row + "\n"; }
   void write(const std::filesystem::path &file) const { write_atomically(file, text_); }
 
 private:

@@ -31,13 +31,13 @@ bool study(const std::string &directory, unsigned jobs) {
   double before = 0;
   for (std::size_t k = 0; k + 1 < runs.size(); ++k) {
     const auto error = [&](const char *quantity) {
-      return history_error(runs[k], runs.back(), quantity, -4, last_x_g);
+      return history_error(runs[k].history, runs.back().history, quantity, -4, last_x_g);
     };
     const double pressure = error("pressure_drop");
     const double order = // none for the first
         k == 0 ? NAN : std::log(before / pressure) / std::log(static_cast<double>(nodes[k]) / nodes[k - 1]);
-    table.add({fmt::format("{},{:.3e},{:.3e},{:.3e},{:.2f}", nodes[k], pressure, error("v_g"),
-                           error("max_stretch"), order)});
+    table.add(fmt::format("{},{:.3e},{:.3e},{:.3e},{:.2f}", nodes[k], pressure, error("v_g"),
+                          error("max_stretch"), order));
     fmt::print("N = {:3}: error of the pressure drop {:.1e}, local order {:.1f}\n", nodes[k], pressure,
                order);
     if (nodes[k] > 56)
