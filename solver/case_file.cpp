@@ -99,6 +99,9 @@ struct Reader {
   bool complete = true;                // no file or --set had to be left out
   std::map<std::string, Place> sections;
   std::vector<std::string> meant; // keys that unknown ones probably stand for
+  // Where the case inherits from several files: their names, and which of them is read here.
+  std::vector<std::string> families;
+  std::size_t family = 0;
 
   std::size_t add_source(const std::string &label, const std::string &text) {
     sources.push_back({label, split_lines(text)});
@@ -339,6 +342,42 @@ std::optional<toml::table> parse(Reader &reader, std::size_t source, const std::
   }
 }
 
+// The directory's name for its case.toml; another file of a case directory carries both names.
+std::string name_of(const fs::path &file) {
+  std::error_code ignored;
+  const fs::path whole = fs::weakly_canonical(file, ignored);
+  std::string directory = whole.parent_path().filename().string();
+  if (whole.filename() == "case.toml")
+    return directory;
+  const bool in_case_directory = fs::exists(whole.parent_path() / "case.toml", ignored);
+  return (in_case_directory ? directory + "-" : "") + whole.stem().string();
+}
+
+// The file to inherit from: the only one, or that of the reader's family.
+std::optional<fs::path> inherited_file(Reader &reader, const Place &place, const toml::node &node,
+                                       const fs::path &file) {
+  if (const auto *name = node.as_string())
+    return case_file_of(file.parent_path() / name->get());
+  const toml::array *list = node.as_array();
+  if (list == nullptr || list->empty() || !list->is_homogeneous(toml::node_type::string)) {
+    reader.complain(place, "inherit must be the path of a file, or a list of paths");
+    return std::nullopt;
+  }
+  if (!reader.families.empty()) {
+    reader.complain(place, "only one of a case's files can inherit from several");
+    return std::nullopt;
+  }
+  std::vector<fs::path> files;
+  for (const toml::node &name : *list) {
+    files.push_back(case_file_of(file.parent_path() / name.as_string()->get()));
+    const std::string family = name_of(files.back());
+    if (std::ranges::find(reader.families, family) != reader.families.end())
+      reader.complain(place, fmt::format("'{}' stands twice in inherit", family));
+    reader.families.push_back(family);
+  }
+  return files[reader.family];
+}
+
 void read_file(Reader &reader, const fs::path &file, std::vector<fs::path> &chain);
 
 void follow_inherit(Reader &reader, std::size_t source, toml::table &root, const fs::path &file,
@@ -347,13 +386,11 @@ void follow_inherit(Reader &reader, std::size_t source, toml::table &root, const
   if (node == root.end())
     return;
   const Place place = place_of(source, node->second.source().begin);
-  const auto *name = node->second.as_string();
-  const fs::path parent = name ? case_file_of(file.parent_path() / name->get()) : fs::path();
+  const std::optional<fs::path> found = inherited_file(reader, place, node->second, file);
   root.erase(node);
-  if (!name) {
-    reader.complain(place, "inherit must be the text of a file's path");
+  if (!found)
     return;
-  }
+  const fs::path &parent = *found;
   std::error_code ignored;
   if (std::ranges::find(chain, fs::weakly_canonical(parent, ignored)) != chain.end()) {
     reader.complain(place, fmt::format("'{}' inherits from itself", parent.string()));
@@ -709,17 +746,6 @@ std::vector<RunInput> build_runs(Reader &reader) {
   return runs;
 }
 
-// The directory's name for its case.toml; another file of a case directory carries both names.
-std::string name_of(const fs::path &file) {
-  std::error_code ignored;
-  const fs::path whole = fs::weakly_canonical(file, ignored);
-  std::string directory = whole.parent_path().filename().string();
-  if (whole.filename() == "case.toml")
-    return directory;
-  const bool in_case_directory = fs::exists(whole.parent_path() / "case.toml", ignored);
-  return (in_case_directory ? directory + "-" : "") + whole.stem().string();
-}
-
 // The input without what makes no difference to the results.
 std::string what_counts(const Case &physics) {
   Case relevant = physics;
@@ -733,17 +759,28 @@ std::string what_counts(const Case &physics) {
 } // namespace
 
 CaseInput read_case(const fs::path &path, const std::vector<std::string> &overrides) {
-  Reader reader;
-  std::vector<fs::path> chain;
   CaseInput input;
   input.file = case_file_of(path);
   input.name = name_of(input.file);
-  read_file(reader, input.file, chain);
-  for (const std::string &argument : overrides)
-    read_override(reader, argument);
-  if (reader.complete)
-    input.runs = build_runs(reader);
-  reader.throw_if_any();
+  std::size_t families = 1;
+  for (std::size_t i = 0; i < families; ++i) {
+    Reader reader;
+    reader.family = i;
+    std::vector<fs::path> chain;
+    read_file(reader, input.file, chain);
+    for (const std::string &argument : overrides)
+      read_override(reader, argument);
+    std::vector<RunInput> runs;
+    if (reader.complete)
+      runs = build_runs(reader);
+    reader.throw_if_any();
+    for (RunInput &run : runs) {
+      if (!reader.families.empty())
+        run.name = reader.families[i] + (run.name.empty() ? "" : ",") + run.name;
+      input.runs.push_back(std::move(run));
+    }
+    families = std::max<std::size_t>(1, reader.families.size());
+  }
   return input;
 }
 

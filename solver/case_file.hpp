@@ -1,6 +1,7 @@
 #pragma once
 // Case files: TOML -> validated runs. The keys are those of case_keys.hpp, and two more:
 //   inherit = "file.toml"             values of another file, relative to this one, that this file overrides
+//   inherit = ["a", "b"]              the runs of the first file and those of the second, and so on
 //   sweep."flow.viscosity_ratio" = []  one run per value; several sweeps make every combination
 // A plain value overrides an inherited sweep of the same key and the other way round; --set overrides both.
 // Every error of all files is collected and thrown as one InputError that reads like a compiler's messages:
@@ -16,7 +17,8 @@
 namespace capsule {
 
 struct RunInput {
-  std::string name; // "viscosity_ratio=0.2,radius=0.9" with sweeps, else empty
+  // "viscosity_ratio=0.2,radius=0.9" with sweeps, after the inherited case's name if there are several, or empty
+  std::string name;
   Case physics;
 };
 

@@ -142,11 +142,12 @@ CaseInput one_run_of(CaseInput input, std::size_t number) {
 }
 
 int run(const Arguments &arguments) {
-  CaseInput input = read_case(arguments.path, arguments.overrides);
+  const CaseInput whole = read_case(arguments.path, arguments.overrides);
+  const RunOptions options = run_options(arguments, whole);
   if (arguments.list)
-    return list_runs(input, run_options(arguments, input));
-  if (arguments.only > 0)
-    input = one_run_of(input, arguments.only);
+    return list_runs(whole, options);
+  const CaseInput input = arguments.only > 0 ? one_run_of(whole, arguments.only) : whole;
+  write_run_list(whole, options);
   const std::vector<RunResult> results = compute_case(input, arguments);
   if (std::ranges::any_of(results, is_interrupted))
     return interrupted;
@@ -158,6 +159,7 @@ int check(const Arguments &arguments) {
   const auto published = find_expectations(input.file);
   const auto expectations =
       published ? expectations_of(read_expectations(*published), input.name) : std::vector<Expectation>();
+  write_run_list(input, run_options(arguments, input));
   const std::vector<RunResult> results = compute_case(input, arguments);
   if (std::ranges::any_of(results, is_interrupted))
     return interrupted;
@@ -252,9 +254,10 @@ int list_keys() {
                key.meaning, "", default_text(key), allowed_text(key));
     section = here;
   }
-  fmt::print("\n{:<26}values of another case file, relative to this one, that this one overrides\n"
+  fmt::print("\n{:<26}values of another case file, relative to this one, that this one overrides;\n"
+             "{:<26}of several, [\"a\", \"b\"]: the runs of each\n"
              "sweep.\"any.key\" = [...]   one run per value; several sweeps make every combination\n",
-             "inherit");
+             "inherit", "");
   return done;
 }
 

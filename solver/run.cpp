@@ -232,6 +232,14 @@ struct Campaign {
 
 } // namespace
 
+void write_run_list(const CaseInput &input, const RunOptions &options) {
+  std::string text;
+  for (const RunInput &run : input.runs)
+    text += (run.name.empty() ? "." : run.name) + "\n";
+  make_directories(options.directory);
+  write_atomically(options.directory / "runs.txt", text);
+}
+
 std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options, const March &march) {
   Campaign campaign(input, options, march);
   if (options.jobs > 1 && input.runs.size() > 1)

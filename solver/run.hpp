@@ -34,6 +34,10 @@ struct RunResult {
   std::optional<Summary> summary; // none: interrupted
 };
 
+// directory/runs.txt: the directories of all runs, in the case's order and relative to that one; "." is a run
+// without a name. Throws FileError.
+void write_run_list(const CaseInput &input, const RunOptions &options);
+
 // In the order of the case's runs. Waits for runs that another process computes at the moment. Throws
 // FileError, and an InputError of one run after the others have been computed.
 std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options, const March &march);

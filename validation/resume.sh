@@ -60,7 +60,7 @@ wait "$process" && fail 'survived being killed'
 numbers() { # all files of a run but for what tells of the way there
   for file in "$1"/*; do
     case $file in
-    */run.json) ;;
+    */run.json | */runs.txt) ;;
     *) echo "${file##*/}" && grep -v '_seconds"' "$file" ;;
     esac
   done

@@ -149,6 +149,25 @@ BOOST_AUTO_TEST_CASE(inherit_chains_and_overrides) {
   BOOST_TEST(input.runs[0].physics.title == "sphere");
 }
 
+BOOST_AUTO_TEST_CASE(the_runs_of_several_cases) {
+  const TemporaryDirectory directory;
+  directory.write("common.toml", sphere);
+  directory.write("a/case.toml", "inherit = '../common.toml'\nsweep.'capsule.radius' = [0.8, 0.9]\n");
+  directory.write("b/case.toml", "inherit = '../a'\ncapsule.radius = 0.7\n");
+  directory.write("c/case.toml", "inherit = ['../a', '../b']\n[flow]\nviscosity_ratio = 5\n");
+  const CaseInput input = read_case(directory.path / "c");
+  BOOST_REQUIRE(input.runs.size() == 3u);
+  BOOST_TEST(input.runs[1].name == "a,radius=0.9");
+  BOOST_TEST(input.runs[1].physics.capsule.radius == 0.9);
+  BOOST_TEST(input.runs[2].name == "b");
+  BOOST_TEST(input.runs[2].physics.capsule.radius == 0.7);
+  for (const RunInput &run : input.runs)
+    BOOST_TEST(run.physics.flow.viscosity_ratio == 5);
+  // Each is the run that the other case would compute itself.
+  const CaseInput alone = read_case(directory.path / "b", {"flow.viscosity_ratio=5"});
+  BOOST_TEST(run_identity(alone.runs.at(0).physics) == run_identity(input.runs[2].physics));
+}
+
 BOOST_AUTO_TEST_CASE(resolved_input_is_a_case_file_of_the_same_run) {
   const TemporaryDirectory directory;
   const auto file = directory.write("a.toml", sphere + "[output]\nprofiles_at_x_g = [3, 0.1, 3]\n");
@@ -255,6 +274,7 @@ BOOST_AUTO_TEST_CASE(wrong_types) {
   check_errors(sphere + "[output]\nprofiles_at_x_g = [1, 'a']\n",
                {"10:19: error: output.profiles_at_x_g must be a"});
   check_errors("inherit = 3\n" + sphere, {"1:11: error: inherit must be"});
+  check_errors("inherit = ['a', 3]\n" + sphere, {"1:11: error: inherit must be"});
 }
 
 BOOST_AUTO_TEST_CASE(out_of_range) {
@@ -358,6 +378,14 @@ BOOST_AUTO_TEST_CASE(inherit_goes_wrong) {
   check_contains(message_of(directory.path / "a.toml"), "a.toml' inherits from itself");
   check_contains(message_of(directory.write("d.toml", "inherit = 'nothing.toml'\n" + sphere)),
                  "d.toml:1:11: error: '" + (directory.path / "nothing.toml").string() + "': no such file");
+  directory.write("good.toml", sphere);
+  check_contains(message_of(directory.write("f.toml", "inherit = ['good.toml', 'good.toml']\n")),
+                 "f.toml:1:11: error: 'good' stands twice in inherit");
+  check_contains(message_of(directory.write("f.toml", "inherit = ['good.toml', 'nothing.toml']\n")),
+                 "nothing.toml': no such file");
+  directory.write("several.toml", "inherit = ['good.toml']\n");
+  check_contains(message_of(directory.write("f.toml", "inherit = ['good.toml', 'several.toml']\n")),
+                 "several.toml:1:11: error: only one of a case's files can inherit from several");
   // A mistake in the inherited file is shown there, beside those of the file that inherits.
   directory.write("bad.toml", sphere + "viscosity_ratio = -2\n");
   const std::string both = message_of(directory.write("e.toml", "inherit = 'bad.toml'\nacuracy = 1e-3\n"));

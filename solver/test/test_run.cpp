@@ -231,6 +231,18 @@ BOOST_AUTO_TEST_CASE(cases_share_their_runs) {
       (numbers_in(directory.path / "two") == numbers_in(directory.path / "one" / "viscosity_ratio=5")));
 }
 
+BOOST_AUTO_TEST_CASE(the_list_of_runs_is_that_of_the_case) {
+  const TemporaryDirectory directory;
+  RunOptions options;
+  options.directory = directory.path / "case";
+  write_run_list(case_with({10, 5, 1}), options);
+  write_run_list(case_with({10, 5}), options);
+  BOOST_TEST(content_of(directory.path / "case/runs.txt") == "viscosity_ratio=10\nviscosity_ratio=5\n");
+  options.directory = directory.path / "single";
+  write_run_list(case_with({1}), options);
+  BOOST_TEST(content_of(directory.path / "single/runs.txt") == ".\n");
+}
+
 BOOST_AUTO_TEST_CASE(runs_side_by_side_are_those_one_after_the_other) {
   const TemporaryDirectory directory;
   const CaseInput input = case_with({1, 2, 3, 4});
