@@ -2,7 +2,8 @@
 #   test case-<id>      computes what is missing and compares it with the case's rows of tables/published.csv
 #   test figure-<id>    draws its figures in the build directory, without a warning
 #   target table-<id>   computes what is missing and writes tables/<id>.csv and .md; all of them: tables
-#   target figure-<id>  the same, and draws figures/<id>/*; all of them, and figures/gallery.md: figures
+#   target figure-<id>  the same, and draws figures/<id>/* and the paper's tables, tables/table<n>.csv and .md; all of
+#                       them, and figures/gallery.md: figures
 # Stored results cases/<id>/<name>/<run>/ of another file cases/<id>/<name>.toml have a test case-<id>-<name> and a
 # target table-<id>-<name>. What is computed lies in results/ for all of them.
 # The target ledger writes tables/ledger.csv and .md, the verdict on each claim of the paper; it is part of figures.
@@ -11,8 +12,13 @@ file(READ tables/published.csv PUBLISHED)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS tables/published.csv)
 
 add_custom_target(tables)
-add_custom_target(figures
-  COMMAND sh -c "for file in figures/*/*.md tables/*.md; do cat $file; echo; done > figures/gallery.md"
+file(GLOB CASE_FILES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/cases cases/*/case.toml)
+list(TRANSFORM CASE_FILES REPLACE "/case.toml$" "" OUTPUT_VARIABLE CASES)
+file(GLOB STORED CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/cases cases/*/*/*/summary.json)
+list(TRANSFORM STORED REPLACE "/[^/]*/summary.json$" "")
+list(REMOVE_DUPLICATES STORED)
+list(TRANSFORM STORED REPLACE "/" "-" OUTPUT_VARIABLE STORED_NAMES)
+add_custom_target(figures COMMAND sh cmake/gallery.sh ${CASES} ${STORED_NAMES}
   COMMENT "Writing figures/gallery.md" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} VERBATIM)
 add_custom_target(ledger
   COMMAND sh -c "$<TARGET_FILE:capsule> ledger --table tables/ledger || test $? = 1"
@@ -53,17 +59,10 @@ function(add_figures id)
   add_dependencies(figures figure-${id})
 endfunction()
 
-file(GLOB CASE_FILES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/cases cases/*/case.toml)
-foreach(file IN LISTS CASE_FILES)
-  get_filename_component(id ${file} DIRECTORY)
+foreach(id IN LISTS CASES)
   add_comparison(${id} cases/${id})
   add_figures(${id})
 endforeach()
-
-file(GLOB STORED CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/cases cases/*/*/*/summary.json)
-list(TRANSFORM STORED REPLACE "/[^/]*/summary.json$" "")
-list(REMOVE_DUPLICATES STORED)
-foreach(directory IN LISTS STORED)
-  string(REPLACE "/" "-" name ${directory})
+foreach(directory name IN ZIP_LISTS STORED STORED_NAMES)
   add_comparison(${name} cases/${directory}.toml --out cases/${directory})
 endforeach()

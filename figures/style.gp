@@ -6,18 +6,34 @@
 
 if (!exists("folder")) folder = "cases"
 
-# Results. A run is named as its directory, "viscosity_ratio=1"; "" is the only run of a case without a sweep.
-results(run) = "results/".case.(run eq "" ? "" : "/".run)
+# Results. A run is named as its directory, "viscosity_ratio=1"; "." is the only run of a case without a sweep.
+runs = system("test ! -f results/".case."/runs.txt || tr '\n' ' ' < results/".case."/runs.txt")
+count = words(runs)
+run(i) = word(runs, i + 0)
+results(run) = "results/".case."/".run
 series(run) = results(run)."/series.csv"
 profiles(run) = results(run)."/profiles.csv"
 # One number, NaN where there is none: of a summary.json, of this case's summaries and their error estimates, of
-# tables/published.csv, where the row speaks of this case.
+# tables/published.csv, where the row speaks of this case, or of one whose runs it shows.
 number(text) = text eq "" ? NaN : text + 0
 entry(directory, key) = number(system("awk -F'[:,]' '/^".key.":/ {printf \"%.16e\", $2}' ".directory."/summary.json 2>/dev/null"))
 result_in(directory, name) = entry(directory, "  \"".name."\"")
 result(run, name) = result_in(results(run), name)
 error_of(run, name) = entry(results(run), "    \"".name."\"")
-published(id) = number(system("awk -F, '$1 == \"".id."\" && index($3, \"".case."\") == 1 {printf \"%.16e\", $6}' tables/published.csv"))
+parameter(run, key) = entry(results(run), "    \"".key."\"")
+# A word of it: "skalak", "reached".
+entry_word(directory, key) = system("sed -n 's/^".key.": \"\\(.*\\)\",*$/\\1/p' ".directory."/summary.json")
+parameter_word(run, key) = entry_word(results(run), "    \"".key."\"")
+result_word(run, name) = entry_word(results(run), "  \"".name."\"")
+# The first run in which a key has the value, or else the first of all.
+run_with(key, value) = first_of(key, value, 1)
+first_of(key, value, i) = i > count ? run(1) : abs(parameter(run(i), key) - value) < 1e-9 ? run(i) : first_of(key, value, i + 1)
+published(id) = published_of(case." ".runs, id)
+published_of(cases, id) = number(system("awk -F, '$1 == \"".id."\" && (index(\"".cases."\", $3) || index($3, \"".word(cases, 1)."\") == 1) {printf \"%.16e\", $6}' tables/published.csv"))
+# In words: a relative distance, "" where there is no published value; a list that grows by an item.
+distance(ours, published) = published == published ? sprintf("%+.2f %%", 100 * (ours / published - 1)) : ""
+listed(list, item) = list.(list eq "" || item eq "" ? "" : ", ").item
+with_comma(list) = list eq "" ? "" : ", ".list
 # To plot a single point:  plot $one using (x):(y) with points
 $one << end
 x
@@ -37,6 +53,11 @@ wall_colour = "#D8D8D8"
 capsule_colour = "#FBE5D6"
 capsule_fill = "filledcurves closed fillstyle solid border linewidth 0.5 linecolor rgb capsule_colour"
 published_mark = "pointtype 6 pointsize 0.9"
+# A published value in the colour of curve i, nothing where there is none, and their entry in the key; added to a list
+# that is put at the end of a plot:  marks = marks.mark(i, x, y); marks = marks.marks_title(marks, "Table 2"); plot ... @marks
+mark(i, x, y) = x == x && y == y ? \
+  sprintf(", $one using (%.10g):(%.10g) with points linetype %d ", x, y, i + 0).published_mark : ""
+marks_title(marks, place) = marks eq "" ? "" : ", NaN with points linetype 1 ".published_mark." title 'published, ".place."'"
 
 # `eval figure("fig07a", 12, 8)` opens the picture out/<id>/fig07a of so many centimetres, and the file of its caption
 # for `print`.
@@ -53,16 +74,27 @@ defaults = "set encoding utf8; set datafile separator ','; set datafile columnhe
   set samples 400; set angles radians; set border 3 linewidth 0.8; set tics nomirror scale 0.6; \
   set key noautotitle Left reverse samplen 2.5 spacing 1.2;"
 
+# `eval table("table2")` opens a table of comma-separated rows for `print`; `eval end_table("table2")` writes it as
+# Markdown, too. Tables lie beside the figures, in the directory tables.
+tables = out."/../tables"
+table(name) = sprintf("set print '%s/%s.csv'", tables, name)
+end_table(name) = sprintf("set print; system('sed \"s/,/ | /g; s/^/| /; s/$/ |/; 1{p; s/[^|]\\+/ --- /g}\" %s/%s.csv > %s/%s.md')", \
+  tables, name, tables, name)
+# A cell: the number in this format, empty where there is none.
+cell(form, x) = x == x ? sprintf(form, x) : ""
+
 # Names of the axes, with their scales.
 x_g_label = "{/:Italic x}_g / {/:Italic R}_t"
 x_label = "{/:Italic x} / {/:Italic R}_t"
 r_label = "{/:Italic r} / {/:Italic R}_t"
 pressure_label = "Δ{/:Italic P} / (μ{/:Italic Q}/π{/:Italic R}_t^3)"
+time_label = "{/:Italic t} / (π{/:Italic R}_t^3/{/:Italic Q})"
+arc_label = "{/:Italic S} / {/:Italic R}_t"
+stretch_label = "{/:Italic λ}_s"
 velocity_label = "{/:Italic v}_g / ({/:Italic Q}/π{/:Italic R}_t^2)"
 
 # The solid around the pore, eq. 1, on both sides of the axis:  plot @wall, ...
-first_run = system("ls -d results/".case." results/".case."/*/ 2>/dev/null | while read d; do test -f $d/summary.json && echo $d && break; done")
-opening_angle = entry(first_run, "    \"pore.opening_angle_deg\"") / 180 * pi
+opening_angle = count > 0 ? parameter(run(1), "pore.opening_angle_deg") / 180 * pi : NaN
 wall_x(t) = t < 0 ? sinh(t) / tan(opening_angle) : t
 wall_r(t) = t < 0 ? cosh(t) : 1
 wall = "sample [t=-3:20] '+' using (wall_x(t)):(wall_r(t)):(10) with filledcurves linecolor rgb wall_colour, \
@@ -71,7 +103,7 @@ wall = "sample [t=-3:20] '+' using (wall_x(t)):(wall_r(t)):(10) with filledcurve
 view(left, right, bottom, top) = sprintf("set size ratio -1; set xrange [%g:%g]; set yrange [%g:%g]; ", \
   left, right, bottom, top)."set xlabel x_label; set ylabel r_label"
 
-system("mkdir -p ".out."/".case)
+system("mkdir -p ".out."/".case." ".tables." && rm -f ".out."/".case."/*")
 do for [format in "svg png"] {
   reset; eval defaults
   load folder."/".case."/figure.gp"

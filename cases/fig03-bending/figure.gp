@@ -1,6 +1,17 @@
-run(i) = "bending_ratio=".word("0 1e-9 1e-5 0.0001 0.001", i)
-name(i) = "{/:Italic δ} = ".word("0 10^{-9} 10^{-5} 10^{-4} 10^{-3}", i)
+delta(i) = parameter(run(i), "membrane.bending_ratio")
+name(i) = "{/:Italic δ} = ".(delta(i) == 0 ? "0" : sprintf("10^{%.4g}", log10(delta(i))))
 end(i, quantity) = result(run(i), quantity)
+# Which runs wrinkled, which came through, and what is said of them.
+wrinkled = ""; smooth = ""; wrinkled_at = ""; pressures = ""
+do for [i=1:count] {
+  if (result_word(run(i), "status") eq "failed") {
+    wrinkled = wrinkled." ".i
+    wrinkled_at = listed(wrinkled_at, sprintf("%.4g", end(i, "x_g")))
+  } else {
+    smooth = smooth." ".i
+    pressures = listed(pressures, sprintf("%.4f for δ = %g", end(i, "pressure_drop"), delta(i)))
+  }
+}
 
 # The tensions at the rear pole of the membrane without stiffness, at x_g = 1.
 stats profiles(run(1)) using (column("S") == 0 ? at_x_g(1, "tension_meridional") : NaN) nooutput
@@ -34,11 +45,10 @@ eval figure("fig03", 12, 8)
 set xrange [-4:12]; set yrange [0:8]
 set xlabel x_g_label; set ylabel pressure_label
 set key at 11.8, 0.3 right bottom
-plot for [i=5:1:-1] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i), \
-  for [i=1:2] $one using (end(i, "x_g")):(end(i, "pressure_drop")) with points linetype i pointtype 2, \
+plot for [i=count:1:-1] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i), \
+  for [i in wrinkled] $one using (end(i, "x_g")):(end(i, "pressure_drop")) with points linetype i+0 pointtype 2, \
   NaN with points linetype 1 pointtype 2 title "wrinkled"
-print "**Figure 3.** Extra pressure drop for five bending stiffnesses. Two are too small: the membrane wrinkles at", \
-  sprintf("x_g = %g and %g. Where wrinkles are prevented the stiffness has a weak effect:", end(1, "x_g"), end(2, "x_g")), \
-  sprintf("at x_g = 11.7 the pressure drop is %.4f, %.4f and %.4f", end(3, "pressure_drop"), end(4, "pressure_drop"), \
-          end(5, "pressure_drop")), \
-  "for δ = 1e-5, 1e-4 and 1e-3."
+print sprintf("**Figure 3.** Extra pressure drop for different bending stiffnesses. %d are too small: the membrane wrinkles", \
+    words(wrinkled)), \
+  sprintf("at x_g = %s. Where wrinkles are prevented the stiffness has a weak effect: at x_g = %g the pressure drop is %s.", \
+    wrinkled_at, end(word(smooth, 1), "x_g"), pressures)

@@ -1,0 +1,48 @@
+#!/bin/sh
+# A case made by `capsule new` from another one is computed and drawn by the target `figures`, by its being there, though
+# it sweeps fewer values and no published number speaks of it.
+#   sh validation/new_case.sh path/to/capsule
+set -eu
+capsule=$(realpath "$1")
+source=$(cd "$(dirname "$0")/.." && pwd)
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+cd "$place"
+
+fail() {
+  echo "FAILED: $*"
+  exit 1
+}
+
+mkdir cases tables figures
+cp "$source/cases/common.toml" cases
+cp "$source/tables/published.csv" tables
+cp "$source/figures/style.gp" figures
+ln -s "$source/cmake" cmake
+"$capsule" new my-case --like "$source/cases/fig07-viscosity-sphere"
+sed -i 's/^"flow.viscosity_ratio" = .*/"flow.viscosity_ratio" = [0.5, 1]/; s/^inherit.*/&\naccuracy = 1e-2/' cases/my-case/case.toml
+
+cat >CMakeLists.txt <<CMAKE
+cmake_minimum_required(VERSION 3.25)
+project(copy LANGUAGES NONE)
+enable_testing()
+add_executable(capsule IMPORTED)
+set_target_properties(capsule PROPERTIES IMPORTED_LOCATION $capsule)
+include(cmake/cases.cmake)
+CMAKE
+cmake -G Ninja -S . -B build >log 2>&1 || { cat log; fail 'cmake'; }
+mkdir -p figures/deleted-case
+: >figures/deleted-case/fig99.md
+cmake --build build --target figures >log 2>&1 || { cat log; fail 'the target figures'; }
+grep -E '"cases/.*line [0-9]+:|^awk' log && fail 'gnuplot complains'
+
+for figure in fig05a fig06a fig07a fig07b fig08; do
+  for format in svg png md; do
+    [ -s figures/my-case/$figure.$format ] || fail "no $figure.$format"
+  done
+  grep -q "my-case/$figure.png" figures/gallery.md || fail "$figure is not in the gallery"
+done
+grep -q 'λ = 0.5' figures/my-case/fig07a.md || fail 'the captions do not speak of the runs'
+grep -i -E '(^|[^a-z])-?nan' figures/my-case/*.md figures/my-case/*.svg tables/*.md && fail 'a number is missing'
+[ ! -e figures/deleted-case ] || fail 'the pictures of a case that is no longer there stay'
+echo "a new case is computed and drawn"
