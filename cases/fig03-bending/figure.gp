@@ -19,7 +19,7 @@ rear_tension = STATS_mean
 
 eval figure("fig02", 17, 6.2)
 set multiplot
-set origin 0, 0; set size 0.55, 1
+set origin 0, 0; set size 0.5, 1
 eval view(-5.2, 3, -2, 2)
 set xtics 1; set ytics 1
 positions = sprintf("-4 -1.5 %g", end(1, "x_g"))
@@ -27,17 +27,24 @@ plot @wall, for [p in positions] for [side=-1:1:2] \
     profiles(run(1)) using (at_x_g(p, "x")):(side * column("r")) with @capsule_fill, \
   for [p in positions] for [side=-1:1:2] \
     profiles(run(1)) using (at_x_g(p, "x")):(side * column("r")) with lines linetype 1
-set origin 0.56, 0; set size noratio 0.44, 1
+rear = number(system(sprintf("awk -F, 'NR > 1 && ($2 - %.10g)^2 < 1e-12 && $3 == 0 {printf \"%%.16e\", $4}' %s", \
+  end(1, "x_g"), profiles(run(1)))))
+set origin 0.49, 0; set size noratio 0.24, 1
+set xrange [rear - 0.005:rear + 0.035]; set yrange [-0.22:0.22]
+unset ylabel; set xtics 0.02; set ytics 0.1
+plot for [side=-1:1:2] profiles(run(1)) using (at_x_g(end(1, "x_g"), "x")):(side * column("r")) with lines linetype 1 linewidth 1
+set origin 0.72, 0; set size noratio 0.28, 1
 set xrange [0:1.2]; set yrange [*:*]
 set xlabel "{/:Italic S} / {/:Italic R}_t"; set ylabel "{/:Italic κ}_s {/:Italic R}_t"
 set xtics 0.4; set ytics autofreq
+set offsets 0, 0, 12, 0 # room for the key
 last_x_g = end(1, "x_g")
 plot profiles(run(1)) using (at_x_g(last_x_g, "S")):"curvature_meridional" with lines linetype 2 linewidth 1 dashtype 1 \
     title sprintf("{/:Italic x}_g = %g", last_x_g), \
   profiles(run(1)) using (at_x_g(1, "S")):"curvature_meridional" with lines linetype 1 title "{/:Italic x}_g = 1"
 unset multiplot
-print "**Figure 2.** The capsule without bending stiffness as it enters (left), and the curvature of its meridian from the", \
-  "rear pole on (right). At x_g = 1 the rear is smooth but compressed in both directions", \
+print "**Figure 2.** The capsule without bending stiffness as it enters (left), its rear in detail (centre, with axes of", \
+  "different scale), and the curvature of its meridian from the rear pole on (right). At x_g = 1 the rear is smooth but compressed in both directions", \
   sprintf("(both tensions are %.3f G at the pole);", rear_tension), \
   sprintf("at x_g = %g it has wrinkled, in waves as short as the mesh allows.", end(1, "x_g"))
 
