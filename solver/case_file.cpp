@@ -639,6 +639,10 @@ struct Builder {
     if (c.capsule.radius != 1)
       complain({"capsule.radius"}, "in an extension lengths are scaled with the capsule's radius",
                "leave out capsule.radius, or set it to 1");
+  }
+
+  void check_end_of_extension() {
+    const Case &c = run.physics;
     if (c.capsule.start_x != 0)
       complain({"capsule.start_x"}, "in an extension the capsule starts in the centre of the flow",
                "leave out capsule.start_x, or set it to 0");
@@ -702,16 +706,28 @@ struct Builder {
             fmt::format("its way goes from {} to {}", number_text(c.capsule.start_x), number_text(last)));
   }
 
-  void check_physics() {
+  void check_physics(const Task &task) {
     const Case &c = run.physics;
     check_scheme();
     check_numerics();
-    if (c.flow.type == FlowType::extension) {
+    if (!task.motion && c.numerics == Numerics::paper)
+      complain({"numerics"}, "numerics = \"paper\" only marches in time",
+               "steady states need numerics = \"standard\"");
+    if (c.flow.type == FlowType::extension)
       check_extension();
-    } else if (c.pore.shape == PoreShape::none) {
+    else if (c.pore.shape == PoreShape::none)
       complain({"pore.shape"}, "a pore flow needs a pore",
                "pore.shape = \"none\" goes with flow.type = \"extension\"");
-    } else {
+    if (task.motion)
+      check_way();
+  }
+
+  // From the start to the end of a motion.
+  void check_way() {
+    const Case &c = run.physics;
+    if (c.flow.type == FlowType::extension) {
+      check_end_of_extension();
+    } else if (c.pore.shape != PoreShape::none) {
       check_start();
       check_end();
     }
@@ -722,7 +738,7 @@ struct Builder {
   }
 };
 
-std::vector<RunInput> build_runs(Reader &reader) {
+std::vector<RunInput> build_runs(Reader &reader, const Task &task) {
   constexpr std::size_t most_runs = 10000;
   std::size_t count = 1;
   for (const Assignment &assignment : reader.assignments)
@@ -740,15 +756,23 @@ std::vector<RunInput> build_runs(Reader &reader) {
     builder.derive();
     builder.complete();
     if (builder.has_required() && valid)
-      builder.check_physics();
+      builder.check_physics(task);
     runs.push_back(std::move(builder.run));
   }
   return runs;
 }
 
 // The input without what makes no difference to the results.
-std::string what_counts(const Case &physics) {
+std::string what_counts(const Case &physics, const Task &task) {
   Case relevant = physics;
+  if (!task.motion) {
+    relevant.capsule.start_x = Case{}.capsule.start_x;
+    relevant.time = {};
+    relevant.until = {};
+    relevant.output = {};
+    if (relevant.pore.shape != PoreShape::none)
+      relevant.pore = {.shape = PoreShape::tube};
+  }
   relevant.title.clear();
   relevant.paper.clear();
   if (physics.numerics == Numerics::paper) // its meshes and its step are given
@@ -758,7 +782,7 @@ std::string what_counts(const Case &physics) {
 
 } // namespace
 
-CaseInput read_case(const fs::path &path, const std::vector<std::string> &overrides) {
+CaseInput read_case(const fs::path &path, const std::vector<std::string> &overrides, const Task &task) {
   CaseInput input;
   input.file = case_file_of(path);
   input.name = name_of(input.file);
@@ -772,7 +796,7 @@ CaseInput read_case(const fs::path &path, const std::vector<std::string> &overri
       read_override(reader, argument);
     std::vector<RunInput> runs;
     if (reader.complete)
-      runs = build_runs(reader);
+      runs = build_runs(reader, task);
     reader.throw_if_any();
     for (RunInput &run : runs) {
       if (!reader.families.empty())
@@ -799,14 +823,15 @@ std::string resolved_toml(const Case &physics) {
   return text;
 }
 
-bool same_input(const Case &a, const Case &b) {
-  return what_counts(a) == what_counts(b);
+bool same_input(const Case &a, const Case &b, const Task &task) {
+  return what_counts(a, task) == what_counts(b, task);
 }
 
-std::string run_identity(const Case &physics) {
+std::string run_identity(const Case &physics, const Task &task) {
   // FNV-1a, 64 bit
   std::uint64_t hash = 14695981039346656037ull;
-  for (const char c : fmt::format("{}\n{}", build_info::source_digest, what_counts(physics)))
+  for (const char c :
+       fmt::format("{}\n{}\n{}", build_info::source_digest, task.name, what_counts(physics, task)))
     hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
   return fmt::format("{:016x}", hash);
 }

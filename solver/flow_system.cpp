@@ -159,6 +159,14 @@ Matrix FlowSystem::empty_wall_traction() const {
 }
 
 FlowSystem::Interaction FlowSystem::interact(const Vector &position) const {
+  return interact(position, viscosity_ratio_ != 1);
+}
+
+FlowSystem::Interaction FlowSystem::interact_in_full(const Vector &position) const {
+  return interact(position, true);
+}
+
+FlowSystem::Interaction FlowSystem::interact(const Vector &position, bool with_double_layers) const {
   const Eigen::Index n = basis_.size();
   Interaction shape;
   shape.nodes = {position.head(n), position.tail(n)};
@@ -172,14 +180,13 @@ FlowSystem::Interaction FlowSystem::interact(const Vector &position) const {
   complete(membrane);
 
   const double tolerance = resolution_.near_tolerance;
-  const bool inner_flow = viscosity_ratio_ != 1;
   assemble_layer(Layer::single, shape.nodes, membrane, &self_, tolerance, shape.single_mm);
-  if (inner_flow)
+  if (with_double_layers)
     assemble_layer(Layer::dbl, shape.nodes, membrane, &self_, tolerance, shape.double_mm);
   if (has_wall()) {
     assemble_layer(Layer::single, wall_targets_, membrane, nullptr, tolerance, shape.single_bm);
     drop_last_row(shape.single_bm);
-    if (inner_flow) {
+    if (with_double_layers) {
       assemble_layer(Layer::dbl, wall_targets_, membrane, nullptr, tolerance, shape.double_bm);
       drop_last_row(shape.double_bm);
     }
@@ -191,13 +198,30 @@ FlowSystem::Interaction FlowSystem::interact(const Vector &position) const {
   return shape;
 }
 
+// C A^(-1): empty without a wall.
+Matrix FlowSystem::wall_answer(const Interaction &shape) const {
+  return has_wall() ? Matrix(shape.from_wall * wall_inverse_) : Matrix();
+}
+
+Matrix FlowSystem::layer_with_wall(const RowMatrix &to_membrane, const RowMatrix &to_wall,
+                                   const Matrix &wall_answer) const {
+  Matrix layer = to_nodes(to_membrane, even_[0], odd_[0]);
+  if (has_wall())
+    layer -= wall_answer * to_nodes(to_wall, even_[0], odd_[0]);
+  return layer;
+}
+
+FlowSystem::Layers FlowSystem::layers(const Interaction &shape) const {
+  const Matrix answer = wall_answer(shape);
+  return {stokeslet_factor / capillary_number_ * layer_with_wall(shape.single_mm, shape.single_bm, answer),
+          layer_with_wall(shape.double_mm, shape.double_bm, answer)};
+}
+
 // beta - (lambda - 1) (D_MM - C A^(-1) D_BM) on nodal velocities.
 Matrix FlowSystem::membrane_operator(const Interaction &shape) const {
-  Matrix double_layer = to_nodes(shape.double_mm, even_[0], odd_[0]);
-  if (has_wall())
-    double_layer -= shape.from_wall * (wall_inverse_ * to_nodes(shape.double_bm, even_[0], odd_[0]));
-  const Eigen::Index n2 = double_layer.rows();
-  return (1 + viscosity_ratio_) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio_ - 1) * double_layer;
+  const Matrix layer = layer_with_wall(shape.double_mm, shape.double_bm, wall_answer(shape));
+  return (1 + viscosity_ratio_) / 2 * Matrix::Identity(layer.rows(), layer.cols()) -
+         (viscosity_ratio_ - 1) * layer;
 }
 
 // Nodal values -> values at the quadrature points, both components.
@@ -258,13 +282,9 @@ FlowState FlowSystem::flow(const Interaction &shape, const Vector &load, Memory 
 }
 
 Matrix FlowSystem::mobility(const Interaction &shape) const {
-  Matrix result = to_nodes(shape.single_mm, even_[0], odd_[0]);
-  if (has_wall())
-    result -= shape.from_wall * (wall_inverse_ * to_nodes(shape.single_bm, even_[0], odd_[0]));
-  result *= stokeslet_factor / capillary_number_;
-  if (viscosity_ratio_ != 1)
-    result = membrane_operator(shape).partialPivLu().solve(result);
-  return result;
+  const Matrix single = stokeslet_factor / capillary_number_ *
+                        layer_with_wall(shape.single_mm, shape.single_bm, wall_answer(shape));
+  return viscosity_ratio_ == 1 ? single : membrane_operator(shape).partialPivLu().solve(single);
 }
 
 double FlowSystem::reciprocal_pressure_drop(const Interaction &shape, const Vector &load,

@@ -45,6 +45,8 @@ public:
     Vector empty_velocity;          // v_e at the nodes
   };
   Interaction interact(const Vector &position) const;
+  // With both layers, whatever lambda.
+  Interaction interact_in_full(const Vector &position) const;
 
   // What lambda != 1 carries from one shape to the next: the inverse of an earlier membrane operator, which
   // turns the new one into a few corrections. Empty at the start; the velocity is the same with any, to
@@ -56,6 +58,12 @@ public:
   FlowState flow(const Interaction &shape, const Vector &load, Memory &memory) const;
   // d velocity/d load for a frozen shape, 2N x 2N.
   Matrix mobility(const Interaction &shape) const;
+  // Both layers on nodal densities with what the wall answers, 2N x 2N.
+  struct Layers {
+    Matrix single; // (S_MM - C A^(-1) S_BM)/(8 pi eps)
+    Matrix dbl;    // D_MM - C A^(-1) D_BM
+  };
+  Layers layers(const Interaction &shape) const;
   // Delta P by the reciprocal theorem, from the load and the empty pore's flow:
   //   pi Delta P = -(1/eps) int q.v_e dA + (lambda - 1) int v.sigma_e n dA.
   double reciprocal_pressure_drop(const Interaction &shape, const Vector &load, const Vector &velocity) const;
@@ -70,10 +78,14 @@ public:
 private:
   bool has_wall() const { return wall_.size() > 0; }
   Eigen::Index unknowns() const { return 2 * wall_.size() + 1; }
+  Interaction interact(const Vector &position, bool with_double_layers) const;
   void build_wall(const Pore &pore);
   void solve_empty_pore(const Pore &pore);
   Vector exit_field(const Targets &points) const;
   RowMatrix wall_response(const Targets &points, bool axis_only_last) const;
+  Matrix layer_with_wall(const RowMatrix &to_membrane, const RowMatrix &to_wall,
+                         const Matrix &wall_answer) const;
+  Matrix wall_answer(const Interaction &shape) const;
   Matrix membrane_operator(const Interaction &shape) const;
   Vector apply_membrane_operator(const Interaction &shape, const Vector &velocity) const;
   Vector membrane_velocity(const Interaction &shape, const Vector &right, Memory &memory) const;

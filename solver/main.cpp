@@ -10,6 +10,7 @@
 #include "progress.hpp"
 #include "project.hpp"
 #include "run.hpp"
+#include "steady_state.hpp"
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
@@ -57,13 +58,21 @@ struct Arguments {
   std::string table;     // files of the comparison, without their endings
   bool list = false;     // the runs, instead of computing them
   std::size_t only = 0;  // one run of a sweep, counted from 1; 0: all
+  std::string from;      // directory of a run whose last profile is near to the steady state
 };
 
-RunOptions run_options(const Arguments &arguments, const CaseInput &input) {
+// What is computed of a case, and what computes it.
+struct Method {
+  Task task = {};
+  March compute = march;
+};
+
+RunOptions run_options(const Arguments &arguments, const CaseInput &input, const Task &task = {}) {
   const fs::path results = "results";
   RunOptions options;
   options.directory = arguments.out.empty() ? results / input.name : fs::path(arguments.out);
   options.pool = arguments.out.empty() ? results / "runs" : fs::path();
+  options.task = task;
   options.jobs = arguments.jobs;
   options.fresh = arguments.fresh;
   options.on_a_terminal = isatty(STDERR_FILENO) == 1;
@@ -81,9 +90,10 @@ bool has_failed(const RunResult &result) {
   return result.summary && result.summary->status == "failed";
 }
 
-std::vector<RunResult> compute_case(const CaseInput &input, const RunOptions &options) {
+std::vector<RunResult> compute_case(const CaseInput &input, const RunOptions &options,
+                                    const March &march_or_solve) {
   listen_to_signals();
-  std::vector<RunResult> results = compute(input, options, march);
+  std::vector<RunResult> results = compute(input, options, march_or_solve);
   for (const RunResult &result : results)
     if (has_failed(result))
       fmt::print(stderr, "{}: {}: {}\n", result.directory.string(), result.summary->failure,
@@ -96,8 +106,9 @@ std::vector<RunResult> compute_case(const CaseInput &input, const RunOptions &op
   return results;
 }
 
-std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arguments) {
-  return compute_case(input, run_options(arguments, input));
+std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arguments,
+                                    const Method &method = {}) {
+  return compute_case(input, run_options(arguments, input, method.task), method.compute);
 }
 
 // Computes these cases of the project where they are not finished, into the table; whether all are now.
@@ -125,7 +136,7 @@ int list_runs(const CaseInput &input, const RunOptions &options) {
     const RunInput &run_input = input.runs[i];
     const RunState state = state_of(run_input, options);
     fmt::print("{}\t{}\t{}\t{}\n", i + 1, run_input.name.empty() ? input.name : run_input.name,
-               run_identity(run_input.physics),
+               run_identity(run_input.physics, options.task),
                state.finished       ? state.ending
                : state.fraction > 0 ? fmt::format("{:.0f} % done", 100 * state.fraction)
                                     : "to be computed");
@@ -141,17 +152,28 @@ CaseInput one_run_of(CaseInput input, std::size_t number) {
   return input;
 }
 
-int run(const Arguments &arguments) {
-  const CaseInput whole = read_case(arguments.path, arguments.overrides);
-  const RunOptions options = run_options(arguments, whole);
+int run(const Arguments &arguments, const Method &method = {}) {
+  const CaseInput whole = read_case(arguments.path, arguments.overrides, method.task);
+  const RunOptions options = run_options(arguments, whole, method.task);
   if (arguments.list)
     return list_runs(whole, options);
   const CaseInput input = arguments.only > 0 ? one_run_of(whole, arguments.only) : whole;
   write_run_list(whole, options);
-  const std::vector<RunResult> results = compute_case(input, arguments);
+  const std::vector<RunResult> results = compute_case(input, arguments, method);
   if (std::ranges::any_of(results, is_interrupted))
     return interrupted;
   return std::ranges::any_of(results, has_failed) ? numerics_failed : done;
+}
+
+int run_steady(const Arguments &arguments) {
+  std::optional<Profile> from;
+  Task task{.motion = false, .name = "steady"};
+  if (!arguments.from.empty()) {
+    from = read_last_profile(arguments.from);
+    task.name += " --from " + arguments.from;
+  }
+  return run(arguments, {task, [&](const Case &physics, const Checkpoint & /*none is saved*/,
+                                   const Control &control) { return steady(physics, from, control); }});
 }
 
 int check(const Arguments &arguments) {
@@ -293,6 +315,13 @@ void add_computing(CLI::App &command, Arguments &arguments) {
       ->check(CLI::PositiveNumber);
 }
 
+void add_selection(CLI::App &command, Arguments &arguments) {
+  command.add_flag("--list", arguments.list,
+                   "list the runs instead: number, directory, identity, what there is; parted by tabs");
+  command.add_option("--only", arguments.only, "compute only the run of this number, as --list counts")
+      ->check(CLI::PositiveNumber);
+}
+
 int run_command(int argc, char **argv) {
   CLI::App app("Entrance of an elastic capsule in a pore");
   app.set_version_flag("--version",
@@ -306,11 +335,15 @@ int run_command(int argc, char **argv) {
   int code = done;
   CLI::App &run_app = *app.add_subcommand("run", "compute every run of a case that is not finished yet");
   add_computing(run_app, arguments);
-  run_app.add_flag("--list", arguments.list,
-                   "list the runs instead: number, directory, identity, what there is; parted by tabs");
-  run_app.add_option("--only", arguments.only, "compute only the run of this number, as --list counts")
-      ->check(CLI::PositiveNumber);
+  add_selection(run_app, arguments);
   run_app.callback([&] { code = run(arguments); });
+  CLI::App &steady_app =
+      *app.add_subcommand("steady", "the steady shape of every run of a case, without marching in time");
+  add_computing(steady_app, arguments);
+  add_selection(steady_app, arguments);
+  steady_app.add_option("--from", arguments.from,
+                        "begin with the last profile of a run's directory instead of from nothing");
+  steady_app.callback([&] { code = run_steady(arguments); });
   CLI::App &check_app =
       *app.add_subcommand("check", "compute what is missing and compare with expected values");
   add_computing(check_app, arguments);

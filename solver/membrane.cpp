@@ -199,18 +199,25 @@ Sampling sample(const MeridianBasis &basis, const Vector &zeta, const Vector &we
 
 Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Vector &zeta,
                        const Vector &weights) {
-  const double radius = physics.capsule.radius / std::cbrt(physics.capsule.aspect_ratio); // B
-  const double half_length = radius * physics.capsule.aspect_ratio;                       // A
-  Membrane membrane{.law = {physics.membrane.law, physics.membrane.dilatation},
-                    .bending_ratio = physics.membrane.bending_ratio,
+  Membrane membrane{.law = {},
+                    .bending_ratio = 0,
                     .basis = basis,
                     .reference = Vector(2 * basis.size()),
                     .sampling = sample(basis, zeta, weights),
                     .reference_shape = {},
                     .at_nodes = sample(basis, basis.nodes, basis.weights)};
-  membrane.reference << -half_length * basis.nodes.array().cos(), radius * basis.nodes.array().sin();
-  membrane.reference_shape = reference_shape_at(membrane.sampling, membrane.reference);
+  take_physics(physics, membrane);
   return membrane;
+}
+
+void take_physics(const Case &physics, Membrane &membrane) {
+  const double radius = physics.capsule.radius / std::cbrt(physics.capsule.aspect_ratio); // B
+  const double half_length = radius * physics.capsule.aspect_ratio;                       // A
+  const auto zeta = membrane.basis.nodes.array();
+  membrane.law = {physics.membrane.law, physics.membrane.dilatation};
+  membrane.bending_ratio = physics.membrane.bending_ratio;
+  membrane.reference << -half_length * zeta.cos(), radius * zeta.sin();
+  membrane.reference_shape = reference_shape_at(membrane.sampling, membrane.reference);
 }
 
 MembraneState membrane_state(const Membrane &membrane, const Sampling &at, const Vector &position) {

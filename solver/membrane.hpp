@@ -39,6 +39,9 @@ struct Membrane {
 Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Vector &zeta,
                        const Vector &weights);
 
+// The same membrane with the law, the bending stiffness and the undeformed shape of another case.
+void take_physics(const Case &physics, Membrane &membrane);
+
 // Strain, tensions (eqs. 2, 4, 5), curvatures (eq. 3) and moments (eq. 6) at given points, which may be
 // poles: there azimuthal and meridional quantities are the same.
 struct MembraneState {

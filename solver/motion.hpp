@@ -28,6 +28,9 @@ struct Outcome {
   Checkpoint last;     // all that was computed
   // quantity ("v_g", "pressure_drop", ...) -> estimated absolute error
   std::map<std::string, double> error_estimate;
+  // Other quantities of summary.json.
+  std::map<std::string, double> further;
+  int membrane_nodes = 0; // 0: those of choose_resolution
 };
 
 // How the caller listens and interrupts.

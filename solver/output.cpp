@@ -1,6 +1,5 @@
 #include "output.hpp"
 #include "build_info.hpp"
-#include "case_file.hpp"
 #include "case_keys.hpp"
 #include "failure.hpp"
 #include "resolution.hpp"
@@ -11,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/chrono.h>
@@ -157,10 +157,15 @@ std::string series_csv(const std::vector<SeriesRow> &series) {
   return text + "\n";
 }
 
-std::string profiles_csv(const std::vector<Profile> &profiles) {
+std::string profiles_header() {
   std::string text = "time,x_g";
   for (const ProfileColumn &column : profile_columns)
     text += fmt::format(",{}", column.name);
+  return text;
+}
+
+std::string profiles_csv(const std::vector<Profile> &profiles) {
+  std::string text = profiles_header();
   for (const Profile &profile : profiles)
     for (Eigen::Index i = 0; i < profile.x.size(); ++i) {
       text += fmt::format("\n{},{}", number_text(profile.time), number_text(profile.x_g));
@@ -308,11 +313,13 @@ Json summary_json(const Case &physics, const Outcome &outcome, const Effort &eff
   };
   for (const SeriesColumn &column : series_columns)
     put(column.name, series.empty() ? std::nullopt : std::optional(series.back().*column.value));
-  const auto peak = entry_peak(series);
+  const auto peak = outcome.status == Status::steady ? std::nullopt : entry_peak(series);
   put("peak_pressure_drop", peak ? std::optional(peak->pressure_drop) : std::nullopt);
   put("x_g_at_peak", peak ? std::optional(peak->x_g) : std::nullopt);
   if (has_physical(physics))
     json["physical"] = physical_json(physics, json);
+  for (const auto &[quantity, value] : outcome.further)
+    json[quantity] = finite_or_null(value);
   json["error_estimate"] = Json::object();
   for (const auto &[quantity, error] : outcome.error_estimate)
     json["error_estimate"][quantity] = finite_or_null(error);
@@ -322,7 +329,7 @@ Json summary_json(const Case &physics, const Outcome &outcome, const Effort &eff
   // Complete: also what followed from the accuracy asked for.
   Case resolved = physics;
   const Resolution chosen = choose_resolution(physics);
-  resolved.mesh.membrane = chosen.membrane_nodes;
+  resolved.mesh.membrane = outcome.membrane_nodes > 0 ? outcome.membrane_nodes : chosen.membrane_nodes;
   if (physics.time.scheme == Scheme::bdf)
     resolved.time.tolerance = chosen.time_tolerance;
   json["parameters"] = Json::object();
@@ -341,9 +348,10 @@ std::string processor_name() {
   return "unknown";
 }
 
-Json provenance_json(const Case &physics, const Effort &effort) {
+Json provenance_json(const Case &physics, const Effort &effort, const Task &task) {
   Json json;
-  json["identity"] = run_identity(physics);
+  json["identity"] = run_identity(physics, task);
+  json["task"] = task.name;
   json["version"] = build_info::version;
   json["git_commit"] = build_info::git_commit;
   json["sources"] = build_info::source_digest;
@@ -408,6 +416,17 @@ void share_file(const fs::path &from, const fs::path &to) {
   fs::rename(temporary, to, ec);
   if (ec)
     fail("cannot write", to, ec.value());
+}
+
+// An entry of run.json; empty if there is none.
+std::string provenance(const fs::path &directory, const char *entry) {
+  const fs::path file = directory / "run.json";
+  const auto json = read_json(file);
+  try {
+    return json ? json->value(entry, "") : "";
+  } catch (const Json::exception &error) {
+    throw FileError(fmt::format("cannot use '{}': {}; run with --fresh", file.string(), error.what()));
+  }
 }
 
 } // namespace
@@ -503,7 +522,7 @@ std::optional<SavedRun> read_checkpoint(const fs::path &directory, const std::st
 }
 
 void write_results(const fs::path &directory, const Case &physics, const Outcome &outcome,
-                   const Effort &effort) {
+                   const Effort &effort, const Task &task) {
   const std::vector<Profile> &profiles = outcome.last.profiles;
   write_atomically(directory / "series.csv", series_csv(outcome.last.series));
   if (has_physical(physics))
@@ -513,7 +532,7 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
     write_atomically(directory / surface_name(i), surface_vtp(profiles[i]));
   write_atomically(directory / "membrane.pvd", surfaces_pvd(profiles));
   write_atomically(directory / "resolved.toml", resolved_toml(physics));
-  write_atomically(directory / "run.json", provenance_json(physics, effort).dump(2) + "\n");
+  write_atomically(directory / "run.json", provenance_json(physics, effort, task).dump(2) + "\n");
   write_atomically(directory / "summary.json", summary_json(physics, outcome, effort).dump(2) + "\n");
   remove_checkpoint(directory);
 }
@@ -548,25 +567,59 @@ Summary read_summary(const fs::path &directory) {
   }
 }
 
-bool is_finished(const fs::path &directory, const std::string &identity) {
-  std::error_code ignored;
-  if (!fs::exists(directory / "summary.json", ignored))
-    return false;
-  const fs::path file = directory / "run.json";
-  const auto json = read_json(file);
-  try {
-    return json && json->value("identity", "") == identity;
-  } catch (const Json::exception &error) {
-    throw FileError(fmt::format("cannot use '{}': {}; run with --fresh", file.string(), error.what()));
+Profile read_last_profile(const fs::path &directory) {
+  const fs::path file = directory / "profiles.csv";
+  errno = 0;
+  std::ifstream stream(file);
+  std::string header, line;
+  if (!std::getline(stream, header))
+    fail("cannot read", file, errno != 0 ? errno : ENODATA);
+  if (header != profiles_header())
+    throw FileError(fmt::format("cannot use '{}': its columns are not those of a profile", file.string()));
+  constexpr std::size_t columns = 2 + profile_columns.size();
+  std::vector<std::array<double, columns>> rows;
+  while (std::getline(stream, line)) {
+    std::array<double, columns> row{};
+    const char *next = line.c_str();
+    for (double &value : row) {
+      char *end = nullptr;
+      value = std::strtod(next, &end);
+      if (end == next)
+        throw FileError(fmt::format("cannot use '{}': '{}' is no row of a profile", file.string(), line));
+      next = *end == ',' ? end + 1 : end;
+    }
+    if (!rows.empty() && (rows.back()[0] != row[0] || rows.back()[1] != row[1])) // of an earlier profile
+      rows.clear();
+    rows.push_back(row);
   }
+  if (rows.empty())
+    throw FileError(fmt::format("cannot use '{}': no profile in it", file.string()));
+  Profile profile;
+  profile.time = rows.back()[0];
+  profile.x_g = rows.back()[1];
+  for (std::size_t k = 0; k < profile_columns.size(); ++k) {
+    Vector &values = profile.*profile_columns.at(k).values;
+    values.resize(std::ssize(rows));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      values[static_cast<Eigen::Index>(i)] = rows[i].at(k + 2);
+  }
+  return profile;
 }
 
-bool is_finished_input(const fs::path &directory, const Case &physics) {
+bool is_finished(const fs::path &directory, const std::string &identity) {
+  std::error_code ignored;
+  return fs::exists(directory / "summary.json", ignored) && provenance(directory, "identity") == identity;
+}
+
+bool is_finished_input(const fs::path &directory, const Case &physics, const Task &task) {
   std::error_code ignored;
   if (!fs::exists(directory / "summary.json", ignored) || !fs::exists(directory / "resolved.toml", ignored))
     return false;
+  const std::string made_by = provenance(directory, "task");
+  if ((made_by.empty() ? Task{}.name : made_by) != task.name)
+    return false;
   try {
-    return same_input(read_case(directory / "resolved.toml").runs.at(0).physics, physics);
+    return same_input(read_case(directory / "resolved.toml", {}, task).runs.at(0).physics, physics, task);
   } catch (const InputError &) { // an input that is none any more
     return false;
   }

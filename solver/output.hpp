@@ -9,7 +9,7 @@
 //   run.json       provenance, and the identity by which a finished run is found again
 //   checkpoint.json   while the run is not finished
 // Every function that touches a file throws FileError with the path and the system's reason.
-#include "case.hpp"
+#include "case_file.hpp"
 #include "motion.hpp"
 #include <filesystem>
 #include <map>
@@ -41,7 +41,7 @@ void remove_checkpoint(const std::filesystem::path &directory);
 
 // All files of a finished run, summary.json last; then the checkpoint goes.
 void write_results(const std::filesystem::path &directory, const Case &physics, const Outcome &outcome,
-                   const Effort &effort);
+                   const Effort &effort, const Task &task = {});
 
 // summary.json read back. Quantities that do not apply are absent.
 struct Summary {
@@ -52,10 +52,12 @@ struct Summary {
   std::map<std::string, double> error_estimate;
 };
 Summary read_summary(const std::filesystem::path &directory);
+// The last profile of a run's profiles.csv.
+Profile read_last_profile(const std::filesystem::path &directory);
 // Whether the directory holds the finished run of this identity.
 bool is_finished(const std::filesystem::path &directory, const std::string &identity);
-// Whether the directory holds a finished run of this input, made by whatever version of the program.
-bool is_finished_input(const std::filesystem::path &directory, const Case &physics);
+// Whether the directory holds what the task makes of this input, by whatever version of the program.
+bool is_finished_input(const std::filesystem::path &directory, const Case &physics, const Task &task = {});
 
 // Takes away the results of whatever run the directory holds, the summary first, and what a killed process
 // left.

@@ -68,14 +68,15 @@ fs::path directory_of(const RunInput &run, const RunOptions &options) {
 
 // Where a run is computed and looked for.
 fs::path home_of(const RunInput &run, const RunOptions &options) {
-  return options.pool.empty() ? directory_of(run, options) : options.pool / run_identity(run.physics);
+  return options.pool.empty() ? directory_of(run, options)
+                              : options.pool / run_identity(run.physics, options.task);
 }
 
 // What lies in the pool is of this program; a directory that the user named holds what its input says.
 bool is_there(const RunInput &run, const RunOptions &options) {
   const fs::path home = home_of(run, options);
-  return options.pool.empty() ? is_finished_input(home, run.physics)
-                              : is_finished(home, run_identity(run.physics));
+  return options.pool.empty() ? is_finished_input(home, run.physics, options.task)
+                              : is_finished(home, run_identity(run.physics, options.task));
 }
 
 // What came of a run.
@@ -91,8 +92,10 @@ std::string report(const RunResult &result, const std::string &case_name, Course
     if (const auto value = summary.quantities.find(quantity); value != summary.quantities.end())
       text += fmt::format("  {} {:.6g}", label, value->second);
   };
-  add("t", "time");
-  add("x_g", "x_g");
+  if (summary.status != "steady") {
+    add("t", "time");
+    add("x_g", "x_g");
+  }
   add("v_g", "v_g");
   add("pressure drop", "pressure_drop");
   add("seconds", "wall_seconds");
@@ -132,7 +135,7 @@ struct Campaign {
 
   Course march_in(const fs::path &home, std::size_t index) {
     const RunInput &run = input.runs[index];
-    const std::string identity = run_identity(run.physics);
+    const std::string identity = run_identity(run.physics, options.task);
     if (options.fresh)
       remove_checkpoint(home);
     const auto saved = read_checkpoint(home, identity);
@@ -167,7 +170,7 @@ struct Campaign {
       write_checkpoint(home, identity, {latest.checkpoint, stopwatch.effort()});
       return interrupted;
     }
-    write_results(home, run.physics, outcome, stopwatch.effort());
+    write_results(home, run.physics, outcome, stopwatch.effort(), options.task);
     return computed;
   }
 
@@ -251,7 +254,7 @@ std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options
 
 RunState state_of(const RunInput &run, const RunOptions &options) {
   const fs::path home = home_of(run, options);
-  const std::string identity = run_identity(run.physics);
+  const std::string identity = run_identity(run.physics, options.task);
   if (is_there(run, options)) {
     const Summary summary = read_summary(home);
     const std::string ending = summary.status + (summary.failure.empty() ? "" : ": " + summary.failure);

@@ -10,7 +10,7 @@
 
 namespace capsule {
 
-// What computes a run: `march`.
+// What computes a run: `march`, or what finds steady states.
 using March = std::function<Outcome(const Case &, const Checkpoint &, const Control &)>;
 
 struct RunOptions {
@@ -21,6 +21,7 @@ struct RunOptions {
   // Runs that several cases share are computed in pool/<identity> and appear in `directory` too; empty:
   // computed there.
   std::filesystem::path pool = {};
+  Task task = {};
   unsigned jobs = 1;  // more than one: each run in a process of its own
   bool fresh = false; // neither use finished runs nor checkpoints
   bool on_a_terminal = false;

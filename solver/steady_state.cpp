@@ -1,0 +1,371 @@
+#include "steady_state.hpp"
+#include "case_keys.hpp"
+#include "failure.hpp"
+#include "quadrature.hpp"
+#include "text.hpp"
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <fmt/format.h>
+#include <numbers>
+#include <string_view>
+
+namespace capsule {
+namespace {
+
+constexpr double position_tolerance = 1e-9;
+constexpr double mesh_growth = 1.35;
+// The slack of the equations is the error of discretisation: beyond this the way goes on on a finer mesh.
+constexpr double largest_slack = 5e-7;
+constexpr int most_nodes = 420;
+constexpr double largest_stretch = 4; // as in a march: beyond, the membrane is said to run away
+
+constexpr const char *size_key = "capsule.radius";
+constexpr const char *shape_key = "capsule.aspect_ratio";
+constexpr const char *flow_key = "flow.capillary_number";
+constexpr const char *bending_key = "membrane.bending_ratio";
+
+// Where the way begins, unless the case lies before it.
+constexpr double weak_flow = 5e-3;
+constexpr double small_radius = 0.6;
+constexpr double stiff_bending = 2e-2; // a shell that does not buckle
+
+double &number(const char *key, Case &physics) {
+  return std::get<Member<double>>(find_key(key)->field).in(physics);
+}
+double number(const char *key, const Case &physics) {
+  return std::get<Member<double>>(find_key(key)->field).of(physics);
+}
+
+void listen(const Control &control) {
+  if (control.interrupted && control.interrupted())
+    throw Interrupted{};
+}
+
+// Sharper curves want more nodes: the rim of a flat spheroid, the tips of a long one.
+double sharpness(const Case &physics) {
+  const double aspect = physics.capsule.aspect_ratio;
+  return std::sqrt(std::max(aspect, 1 / aspect));
+}
+
+int first_nodes(const Case &physics) {
+  const int nodes = static_cast<int>(std::lround(64 * sharpness(physics)));
+  return physics.mesh.membrane > 0 ? std::min(nodes, physics.mesh.membrane) : nodes;
+}
+
+Resolution resolution_of(const Case &physics, int nodes) {
+  Case on_nodes = physics;
+  on_nodes.mesh.membrane = nodes;
+  Resolution resolution = choose_resolution(on_nodes);
+  // Newton's method needs a residual that is smooth where a panel becomes a near one.
+  resolution.flow.near_tolerance = std::min(1e-9, resolution.flow.near_tolerance);
+  resolution.flow.wall_panel *= std::min(1.0, 80 * sharpness(physics) / nodes);
+  return resolution;
+}
+
+Vector moved_to(const MeridianBasis &to, const MeridianBasis &from, const Vector &unknowns) {
+  const Eigen::Index n = from.size();
+  const Eigen::Index m = to.size();
+  Vector moved(2 * m + 2);
+  moved << from.even(to.nodes, 0) * unknowns.head(n), from.odd(to.nodes, 0) * unknowns.segment(n, n),
+      unknowns.tail(2);
+  return moved;
+}
+
+SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state) {
+  SteadyState finer{std::make_shared<SteadySystem>(physics, resolution_of(physics, nodes)), {}};
+  const Vector guess =
+      moved_to(finer.system->membrane().basis, state.system->membrane().basis, state.unknowns);
+  finer.unknowns = solve_steady(*finer.system, guess, position_tolerance);
+  return finer;
+}
+
+// One key from the value that it has on the way to the case's; in steps that suit values of any magnitude,
+// zero too.
+class Leg {
+public:
+  Leg(const char *key, const Case &now, double to) : key_(key), now_(now), from_(number(key, now)), to_(to) {}
+  bool needed() const { return from_ != to_; }
+  Case at(double part) const {
+    constexpr double power = 8;
+    const double root = (1 - part) * std::pow(from_, 1 / power) + part * std::pow(to_, 1 / power);
+    Case physics = now_;
+    number(key_, physics) = part == 1 ? to_ : std::pow(std::max(root, 0.0), power);
+    return physics;
+  }
+  std::string text(double part) const { return fmt::format("{} = {:.6g}", key_, number(key_, at(part))); }
+
+private:
+  const char *key_;
+  Case now_;
+  double from_, to_;
+};
+
+// The way from a small stiff sphere in a weak flow to a case's capsule.
+class Way {
+public:
+  Way(const Case &physics, const Control &control) : target_(physics), now_(physics), control_(control) {
+    number(flow_key, now_) = std::min(weak_flow, physics.flow.capillary_number);
+    number(shape_key, now_) = 1;
+    number(bending_key, now_) = std::max(stiff_bending, physics.membrane.bending_ratio);
+    if (physics.pore.shape != PoreShape::none)
+      number(size_key, now_) = std::min(small_radius, physics.capsule.radius);
+    state_.system = std::make_shared<SteadySystem>(now_, resolution_of(target_, first_nodes(physics)));
+    state_.unknowns = solve_steady(*state_.system, state_.system->undeformed(), position_tolerance);
+  }
+
+  void go(const char *key, double to) {
+    const Leg leg(key, now_, to);
+    double part = leg.needed() ? 0 : 1;
+    while (part < 1) {
+      const double from = part;
+      try {
+        part = follow(leg, from);
+      } catch (const NumericsFailure &failure) {
+        if (failure.kind == "fold" || !can_refine())
+          throw;
+        part = reached_;
+      }
+      if (part < 1)
+        refine_at(leg.at(part));
+    }
+    now_ = leg.at(1);
+  }
+
+  const SteadyState &state() const { return state_; }
+
+private:
+  int finer_mesh() const { return static_cast<int>(std::ceil(mesh_growth * nodes())); }
+  int nodes() const { return static_cast<int>(state_.system->nodes()); }
+  bool can_refine() const {
+    return finer_mesh() <= (target_.mesh.membrane > 0 ? target_.mesh.membrane : most_nodes);
+  }
+  void refine_at(const Case &physics) { state_ = on_mesh(physics, finer_mesh(), state_); }
+
+  // Follows the branch, through folds if it comes to that, from one part of the leg to its end or to where a
+  // finer mesh is called for. What was reached stays in state_ and reached_ when it fails.
+  double follow(const Leg &leg, double from) {
+    constexpr double first_step = 0.2, largest_step = 0.7;
+    constexpr int most_steps = 200;
+    Branch branch(
+        *state_.system, [&](double part) { return leg.at(part); }, {state_.unknowns, from}, 1, first_step,
+        largest_step);
+    std::string turned_at;
+    for (int step = 0; step < most_steps; ++step) {
+      listen(control_);
+      state_.unknowns = branch.point().unknowns;
+      reached_ = branch.point().parameter;
+      const double slope = branch.slope();
+      try {
+        branch.advance();
+      } catch (const NumericsFailure &failure) {
+        throw NumericsFailure(failure.kind, fmt::format("{} beyond {}", failure.what(), leg.text(reached_)),
+                              failure.advice);
+      }
+      const BranchPoint &now = branch.point();
+      if (slope > 0 && branch.slope() < 0 && turned_at.empty())
+        turned_at = leg.text(branch.fold().parameter);
+      if (now.parameter < 0 || (!turned_at.empty() && largest_stretch_of(now) > largest_stretch))
+        break;
+      if (std::abs(now.unknowns[now.unknowns.size() - 1]) > largest_slack && can_refine())
+        return reached_;
+      if (now.parameter >= 1) {
+        state_.unknowns = branch.at_parameter(1).unknowns;
+        return 1;
+      }
+    }
+    if (turned_at.empty())
+      throw NumericsFailure("unresolved",
+                            fmt::format("the branch does not end beyond {}", leg.text(reached_)),
+                            "try a finer mesh.membrane or a larger membrane.bending_ratio");
+    throw NumericsFailure("fold", fmt::format("no steady state: fold at {}", turned_at),
+                          "stay on the near side of it");
+  }
+
+  double largest_stretch_of(const BranchPoint &point) const {
+    const Membrane &membrane = state_.system->membrane();
+    return membrane_state(membrane, membrane.at_nodes, point.unknowns.head(2 * state_.system->nodes()))
+        .stretch_meridional.maxCoeff();
+  }
+
+  Case target_, now_;
+  const Control &control_;
+  double reached_ = 0;
+  SteadyState state_;
+};
+
+// First the flow, then size and shape; the bending stiffness last, because soft shells buckle on the way.
+SteadyState by_the_flow_first(const Case &physics, const Control &control) {
+  Way way(physics, control);
+  for (const char *key : {flow_key, size_key, shape_key, bending_key})
+    way.go(key, number(key, physics));
+  return way.state();
+}
+
+// The flow at last, so that a fold is met in the capillary number.
+SteadyState by_the_flow_last(const Case &physics, double first_flow, const Control &control) {
+  Way way(physics, control);
+  way.go(flow_key, first_flow);
+  for (const char *key : {size_key, shape_key, bending_key, flow_key})
+    way.go(key, number(key, physics));
+  return way.state();
+}
+
+// Values at ascending `at` from values f at ascending S, by the cubic through the four nearest points.
+Vector interpolated(const Vector &S, const Vector &f, const Vector &at) {
+  Vector result(at.size());
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const Eigen::Index above = std::upper_bound(S.begin(), S.end(), at[i]) - S.begin();
+    const Eigen::Index first = std::clamp<Eigen::Index>(above - 2, 0, S.size() - 4);
+    const Vector four = S.segment(first, 4);
+    result[i] = (lagrange_matrix(four, Vector::Constant(1, at[i])) * f.segment(first, 4)).value();
+  }
+  return result;
+}
+
+// A profile's shape on the nodes, point by point of the undeformed membrane.
+Vector nodes_on(const Profile &profile, const Membrane &membrane) {
+  const Eigen::Index n = membrane.basis.size();
+  if (profile.S.size() < 4)
+    throw InputError("error: a profile of at least four points is needed to begin with\n");
+  // Undeformed arc length of the nodes, by chords much shorter than the distance of the nodes.
+  const Vector zeta = Vector::LinSpaced(64 * n + 1, 0, std::numbers::pi);
+  const Vector x = membrane.basis.even(zeta, 0) * membrane.reference.head(n);
+  const Vector r = membrane.basis.odd(zeta, 0) * membrane.reference.tail(n);
+  Vector arc = Vector::Zero(zeta.size());
+  for (Eigen::Index k = 1; k < zeta.size(); ++k)
+    arc[k] = arc[k - 1] + std::hypot(x[k] - x[k - 1], r[k] - r[k - 1]);
+  const Vector S = interpolated(zeta, arc, membrane.basis.nodes) *
+                   ((profile.S[profile.S.size() - 1] - profile.S[0]) / arc[zeta.size() - 1]);
+  Vector unknowns = Vector::Zero(2 * n + 2);
+  unknowns.head(n) = interpolated(profile.S, profile.x, S).array() - profile.x_g;
+  unknowns.segment(n, n) = interpolated(profile.S, profile.r, S);
+  unknowns[2 * n] = profile.velocity_x.mean();
+  return unknowns;
+}
+
+std::map<std::string, double> differences(const SeriesRow &a, const SeriesRow &b) {
+  return {{"v_g", std::abs(a.v_g - b.v_g)},
+          {"pressure_drop", std::abs(a.pressure_drop - b.pressure_drop)},
+          {"max_stretch", std::abs(a.max_stretch - b.max_stretch)},
+          {"front_stretch", std::abs(a.front_stretch - b.front_stretch)},
+          {"min_film", std::abs(a.min_film - b.min_film)},
+          {"length", std::abs(a.length - b.length)},
+          {"deformation", std::abs(a.deformation - b.deformation)},
+          {"volume_change", std::abs(a.volume_change)}};
+}
+
+// Whether two meshes agree: in what all of the membrane makes to a tenth of the accuracy; the stretches, which
+// are local, to the accuracy itself. The finer mesh is closer to the truth by an order or more.
+bool agree(const SeriesRow &a, const SeriesRow &b, double accuracy) {
+  const auto near = [&](double SeriesRow::*quantity, double scale, double share) {
+    return std::abs(a.*quantity - b.*quantity) <= share * accuracy * scale;
+  };
+  return near(&SeriesRow::v_g, 1, 0.1) && near(&SeriesRow::pressure_drop, std::abs(a.pressure_drop), 0.1) &&
+         near(&SeriesRow::length, a.length, 0.1) && near(&SeriesRow::deformation, 1, 0.1) &&
+         near(&SeriesRow::max_stretch, a.max_stretch, 1) &&
+         near(&SeriesRow::front_stretch, a.front_stretch, 1);
+}
+
+SeriesRow row_of(const SteadyState &state) {
+  const SteadySystem &system = *state.system;
+  const Gauge gauge(system.scene(), system.membrane());
+  Vector position = state.unknowns.head(2 * system.nodes());
+  position.head(system.nodes()).array() -= gauge.centre(position);
+  const FlowState flow = system.flow(position);
+  SeriesRow row = gauge.row(0, position, flow.velocity);
+  row.x_g = 0; // what rounding leaves of it
+  row.pressure_drop = flow.pressure_drop;
+  row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
+  return row;
+}
+
+} // namespace
+
+SteadyState find_steady(const Case &physics, const std::optional<Profile> &from, const Control &control) {
+  if (from) {
+    SteadyState state{std::make_shared<SteadySystem>(physics, resolution_of(physics, first_nodes(physics))),
+                      {}};
+    state.unknowns =
+        solve_steady(*state.system, nodes_on(*from, state.system->membrane()), position_tolerance);
+    return state;
+  }
+  const double flow = physics.flow.capillary_number;
+  try {
+    return by_the_flow_first(physics, control);
+  } catch (const NumericsFailure &) {
+    for (const double part : {0.25, 0.06})
+      try {
+        return by_the_flow_last(physics, part * flow, control);
+      } catch (const NumericsFailure &failure) {
+        if (failure.kind == "fold" && std::string_view(failure.what()).find(flow_key) != std::string::npos)
+          throw;
+      }
+    throw;
+  }
+}
+
+RefinedState refine(const Case &physics, const SteadyState &state, const Control &control) {
+  const bool given = physics.mesh.membrane > 0;
+  RefinedState refined{given ? on_mesh(physics, 3 * physics.mesh.membrane / 4, state) : state, {}, ""};
+  SeriesRow row = row_of(refined.state);
+  for (;;) {
+    listen(control);
+    const auto now = static_cast<int>(refined.state.system->nodes());
+    const int nodes = given ? physics.mesh.membrane : static_cast<int>(std::ceil(mesh_growth * now));
+    refined.state = on_mesh(physics, nodes, refined.state);
+    const SeriesRow before = row;
+    row = row_of(refined.state);
+    refined.error_estimate = differences(row, before);
+    if (given || agree(row, before, physics.accuracy))
+      return refined;
+    if (nodes * mesh_growth > most_nodes) {
+      refined.warning = fmt::format("meshes of {} and {} nodes differ by more than the accuracy asked for; a "
+                                    "larger membrane.bending_ratio has smoother shapes",
+                                    now, nodes);
+      return refined;
+    }
+  }
+}
+
+SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
+  const SteadySystem &system = *state.system;
+  const Gauge gauge(system.scene(), system.membrane());
+  SteadyRecord record;
+  record.row = row_of(state);
+  Vector position = state.unknowns.head(2 * system.nodes());
+  position.head(system.nodes()).array() -= gauge.centre(position);
+  record.profile = gauge.profile(0, position, system.flow(position).velocity);
+  record.profile.x_g = 0;
+  const std::complex<double> slowest = system.growth_rates(state.unknowns, viscosity_ratio)[0];
+  record.rates = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
+  if (system.scene().flow.type == FlowType::pore)
+    record.rates["growth_per_length"] = slowest.real() / record.row.v_g;
+  return record;
+}
+
+Outcome steady(const Case &physics, const std::optional<Profile> &from, const Control &control) {
+  Outcome outcome;
+  try {
+    const RefinedState refined = refine(physics, find_steady(physics, from, control), control);
+    const SteadyRecord record = record_steady(refined.state, physics.flow.viscosity_ratio);
+    outcome.status = Status::steady;
+    outcome.message = refined.warning;
+    if (record.rates.at("growth_rate") > 0)
+      outcome.message += fmt::format("{}this steady state is unstable", outcome.message.empty() ? "" : "; ");
+    outcome.error_estimate = refined.error_estimate;
+    outcome.further = record.rates;
+    outcome.membrane_nodes = static_cast<int>(refined.state.system->nodes());
+    outcome.last.series = {record.row};
+    outcome.last.profiles = {record.profile};
+  } catch (const NumericsFailure &failure) {
+    outcome.status = Status::failed;
+    outcome.failure = failure.kind;
+    outcome.message = fmt::format("{}; {}", failure.what(), failure.advice);
+  } catch (const Interrupted &) {
+    outcome.status = Status::interrupted;
+  }
+  return outcome;
+}
+
+} // namespace capsule

@@ -1,0 +1,47 @@
+#pragma once
+// The steady shape of a case without marching in time, from nothing or from a profile: branches
+// (continuation.hpp) lead from a small stiff sphere in a weak flow to the case's capsule, one key after the
+// other, and the mesh is refined until two agree.
+#include "continuation.hpp"
+#include "motion.hpp"
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace capsule {
+
+struct SteadyState {
+  std::shared_ptr<SteadySystem> system; // that has taken the state's case
+  Vector unknowns;
+};
+
+// A case's steady state on a first mesh; `from` is any shape of the same capsule near to it. Throws
+// NumericsFailure, of the kind "fold" when there is none because the branch turns back: the text says at which
+// value of which key.
+SteadyState find_steady(const Case &physics, const std::optional<Profile> &from, const Control &control);
+
+struct RefinedState {
+  SteadyState state;
+  std::map<std::string, double> error_estimate; // differences from the mesh before
+  std::string warning;                          // when they are larger than asked for
+};
+// The same on finer and finer meshes, until the last two agree to the accuracy asked for, in the pressure drop
+// and other integrals to a tenth of it; with a given mesh.membrane, on that mesh and on one of three quarters
+// of its nodes.
+RefinedState refine(const Case &physics, const SteadyState &state, const Control &control);
+
+// At time 0 and x_g = 0.
+struct SteadyRecord {
+  SeriesRow row;
+  Profile profile;
+  std::map<std::string, double> rates; // growth_rate, oscillation_rate, growth_per_length
+};
+SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
+
+// Thrown where the caller asks to stop.
+struct Interrupted {};
+
+// status: steady, or failed. Series and profiles of the outcome hold one entry. Nothing is saved on the way.
+Outcome steady(const Case &physics, const std::optional<Profile> &from, const Control &control);
+
+} // namespace capsule

@@ -1,0 +1,207 @@
+#include "steady_system.hpp"
+#include "failure.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace capsule {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// Beyond the tips: the disturbance has fallen to 1e-9 there.
+constexpr double wall_beyond = 4.7;
+
+// The wall and everything about the flow that no parameter changes. epsilon and lambda are one.
+Case scene_of(const Case &physics) {
+  Case scene = physics;
+  if (scene.pore.shape == PoreShape::hyperbolic)
+    scene.pore.shape = PoreShape::tube;
+  scene.flow.capillary_number = 1;
+  scene.flow.viscosity_ratio = 1;
+  return scene;
+}
+
+Membrane membrane_on(const Case &physics, const Resolution &resolution) {
+  const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
+  return make_membrane(physics, spectral_basis(resolution.membrane_nodes), energy_rule.nodes,
+                       energy_rule.weights);
+}
+
+} // namespace
+
+SteadySystem::SteadySystem(const Case &physics, const Resolution &resolution)
+    : scene_(scene_of(physics)), resolution_(resolution), membrane_(membrane_on(physics, resolution)) {
+  take(physics);
+  half_length_ = wall_beyond + 1.5;
+  build_flow();
+}
+
+void SteadySystem::build_flow() {
+  scene_.pore.exit_x = half_length_;
+  scene_.pore.entrance_distance = half_length_;
+  flow_.emplace(scene_, membrane_.basis, resolution_.flow);
+}
+
+void SteadySystem::take(const Case &physics) {
+  take_physics(physics, membrane_);
+  scene_.capsule = physics.capsule;
+  scene_.membrane = physics.membrane;
+  capillary_number_ = physics.flow.capillary_number;
+  volume_ = 4 * pi / 3 * std::pow(physics.capsule.radius, 3);
+}
+
+Vector SteadySystem::undeformed() const {
+  Vector unknowns = Vector::Zero(2 * nodes() + 2);
+  unknowns.head(2 * nodes()) = membrane_.reference;
+  if (scene_.pore.shape != PoreShape::none)
+    unknowns[2 * nodes()] = 2 - 4.0 / 3 * std::pow(std::min(scene_.capsule.radius, 0.8), 2);
+  return unknowns;
+}
+
+void SteadySystem::fit_tube(const Vector &unknowns) {
+  if (scene_.pore.shape == PoreShape::none)
+    return;
+  const double tip = unknowns.head(nodes()).cwiseAbs().maxCoeff();
+  if (tip + wall_beyond < half_length_)
+    return;
+  half_length_ = 1.25 * tip + wall_beyond;
+  build_flow();
+}
+
+double SteadySystem::admissible_step(const Vector &unknowns, const Vector &change) const {
+  constexpr double keep = 0.3; // of the distance to the wall and to the axis
+  const Eigen::Index n = nodes();
+  const bool wall = scene_.pore.shape != PoreShape::none;
+  double step = 1;
+  for (Eigen::Index k = n; k < 2 * n; ++k) {
+    const double r = unknowns[k];
+    if (change[k] < 0)
+      step = std::min(step, (1 - keep) * r / -change[k]);
+    else if (wall)
+      step = std::min(step, (1 - keep) * (1 - r) / change[k]);
+  }
+  return step;
+}
+
+void SteadySystem::require_capsule(const Vector &position) const {
+  const auto r = position.tail(nodes());
+  if (!position.allFinite())
+    throw NumericsFailure("not-a-number", "the membrane's position is not a number",
+                          "try a finer mesh.membrane");
+  if (r.minCoeff() <= 0)
+    throw NumericsFailure("folded", "the membrane crosses the axis", "try a larger membrane.bending_ratio");
+  if (scene_.pore.shape == PoreShape::none)
+    return;
+  if (r.maxCoeff() >= 1)
+    throw NumericsFailure("touching", "the membrane touches the wall", "try a larger flow.capillary_number");
+  if (position.head(nodes()).cwiseAbs().maxCoeff() > half_length_ - 0.1)
+    throw NumericsFailure("exit", "the membrane is longer than any capsule",
+                          "try a smaller flow.capillary_number");
+}
+
+// Rows: centre and volume; columns: nodal positions.
+Eigen::Matrix<double, 2, Eigen::Dynamic> SteadySystem::constraint_slopes(const Vector &position) const {
+  const Eigen::Index n = nodes();
+  const auto weights = membrane_.basis.weights.array();
+  const auto r = position.tail(n).array();
+  const Vector x_zeta = membrane_.at_nodes.even[1] * position.head(n);
+  Eigen::Matrix<double, 2, Eigen::Dynamic> slopes(2, 2 * n);
+  slopes.setZero();
+  slopes.row(0).head(n) = 0.5 * weights * membrane_.basis.nodes.array().sin();
+  slopes.row(1).head(n) =
+      pi * (membrane_.at_nodes.even[1].transpose() * (weights * r.square()).matrix()).transpose();
+  slopes.row(1).tail(n) = 2 * pi * weights * r * x_zeta.array();
+  return slopes;
+}
+
+Vector SteadySystem::equations(const Vector &unknowns, const Vector &velocity) const {
+  const Eigen::Index n = nodes();
+  const Vector position = unknowns.head(2 * n);
+  const auto weights = membrane_.basis.weights.array();
+  const auto r = position.tail(n).array();
+  const Vector x_zeta = membrane_.at_nodes.even[1] * position.head(n);
+  const Vector r_zeta = membrane_.at_nodes.odd[1] * position.tail(n);
+  const Eigen::ArrayXd arc = (x_zeta.array().square() + r_zeta.array().square()).sqrt();
+  Vector rows(2 * n + 2);
+  rows.head(2 * n) = velocity;
+  rows.head(n).array() -= unknowns[2 * n];
+  rows.head(n).array() -= unknowns[2 * n + 1] * r_zeta.array() / arc;
+  rows.segment(n, n).array() += unknowns[2 * n + 1] * x_zeta.array() / arc;
+  rows[2 * n] = 0.5 * (weights * membrane_.basis.nodes.array().sin() * position.head(n).array()).sum();
+  rows[2 * n + 1] = pi * (weights * r.square() * x_zeta.array()).sum() - volume_;
+  return rows;
+}
+
+Vector SteadySystem::residual(const Vector &unknowns) const {
+  const Vector position = unknowns.head(2 * nodes());
+  require_capsule(position);
+  FlowSystem::Memory unused;
+  const Vector load = membrane_load(membrane_, position) / capillary_number_;
+  return equations(unknowns, flow_->flow(flow_->interact(position), load, unused).velocity);
+}
+
+SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) const {
+  const Eigen::Index n = nodes();
+  const Vector position = unknowns.head(2 * n);
+  require_capsule(position);
+  FlowSystem::Memory unused;
+  const FlowSystem::Interaction shape = flow_->interact_in_full(position);
+  const Vector load = membrane_load(membrane_, position) / capillary_number_;
+  LinearMotion motion = linear_motion(*flow_, shape, membrane_, position, capillary_number_);
+  Linearisation result;
+  result.residual = equations(unknowns, flow_->flow(shape, load, unused).velocity);
+  result.double_layer = std::move(motion.double_layer);
+  Matrix &jacobian = result.jacobian;
+  jacobian = Matrix::Zero(2 * n + 2, 2 * n + 2);
+  jacobian.topLeftCorner(2 * n, 2 * n) = motion.equal_viscosities;
+  jacobian.bottomLeftCorner(2, 2 * n) = constraint_slopes(position);
+  Vector unit = unknowns; // equations are linear in V and the slack
+  unit[2 * n + 1] = 1;
+  Vector none = unknowns;
+  none[2 * n + 1] = 0;
+  jacobian.col(2 * n + 1) = equations(unit, Vector::Zero(2 * n)) - equations(none, Vector::Zero(2 * n));
+  jacobian.col(2 * n).head(n).setConstant(-1);
+  return result;
+}
+
+Matrix SteadySystem::small_motion(const Linearisation &linear, double viscosity_ratio) const {
+  const Eigen::Index n2 = 2 * nodes();
+  const auto motion = linear.jacobian.topLeftCorner(n2, n2);
+  if (viscosity_ratio == 1)
+    return motion;
+  return ((1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio - 1) * linear.double_layer)
+      .partialPivLu()
+      .solve(motion);
+}
+
+Matrix SteadySystem::small_motion(const Vector &unknowns, double viscosity_ratio) const {
+  return small_motion(linearise(unknowns), viscosity_ratio);
+}
+
+Eigen::VectorXcd SteadySystem::growth_rates(const Vector &unknowns, double viscosity_ratio) const {
+  const Eigen::Index n2 = 2 * nodes();
+  const Linearisation linear = linearise(unknowns);
+  Matrix motion = small_motion(linear, viscosity_ratio);
+  // Displacements that keep centre and volume, seen from the centre; along the columns of the border.
+  const Matrix constraints = linear.jacobian.bottomLeftCorner(2, n2);
+  const Matrix border = linear.jacobian.topRightCorner(n2, 2);
+  motion -= border * (constraints * border).partialPivLu().solve(constraints * motion);
+  const Eigen::HouseholderQR<Matrix> qr(constraints.transpose());
+  const Matrix all = qr.householderQ() * Matrix::Identity(n2, n2);
+  const auto allowed = all.rightCols(n2 - 2);
+  Eigen::VectorXcd rates =
+      Eigen::EigenSolver<Matrix>(allowed.transpose() * motion * allowed, false).eigenvalues();
+  std::sort(rates.begin(), rates.end(), [](const auto &a, const auto &b) { return a.real() > b.real(); });
+  return rates;
+}
+
+FlowState SteadySystem::flow(const Vector &position) const {
+  FlowSystem::Memory unused;
+  const FlowSystem::Interaction shape = flow_->interact(position);
+  const Vector load = membrane_load(membrane_, position) / capillary_number_;
+  FlowState state = flow_->flow(shape, load, unused);
+  state.pressure_drop_reciprocal = flow_->reciprocal_pressure_drop(shape, load, state.velocity);
+  return state;
+}
+
+} // namespace capsule

@@ -1,0 +1,144 @@
+// Steady shapes and small motions about them: exact limits, and the motion's own equations differentiated.
+#include "dynamics.hpp"
+#include "failure.hpp"
+#include "steady_state.hpp"
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+using namespace capsule;
+
+namespace {
+
+Case tube_case(LawName law, double radius, double capillary_number, double bending_ratio) {
+  Case physics;
+  physics.membrane.law = law;
+  physics.membrane.bending_ratio = bending_ratio;
+  physics.capsule.radius = radius;
+  physics.flow.capillary_number = capillary_number;
+  physics.mesh.membrane = 48;
+  return physics;
+}
+
+Case extension_case(LawName law, double dilatation, double capillary_number) {
+  Case physics = tube_case(law, 1, capillary_number, 1e-3);
+  physics.membrane.dilatation = dilatation;
+  physics.pore.shape = PoreShape::none;
+  physics.flow.type = FlowType::extension;
+  return physics;
+}
+
+SeriesRow steady_row(const Case &physics) {
+  const Outcome outcome = steady(physics, {}, {});
+  BOOST_REQUIRE_MESSAGE(outcome.status == Status::steady, outcome.message);
+  return outcome.last.series.at(0);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(steady_state)
+
+// A stiff sphere is the rigid sphere of the classical solution, up to terms linear in eps that two values
+// remove. Reference: two independent programs agree on these digits.
+BOOST_AUTO_TEST_CASE(stiff_spheres_are_rigid) {
+  struct Row {
+    double a, v_g, pressure_drop;
+  };
+  for (const Row row :
+       {Row{0.1, 1.98666993, 1.600029e-4}, Row{0.5, 1.67984674, 0.5218392}, Row{0.7, 1.41627863, 3.285772}}) {
+    Case physics = tube_case(LawName::skalak, row.a, 1e-5, 1e-3);
+    const SeriesRow first = steady_row(physics);
+    physics.flow.capillary_number = 2e-5;
+    const SeriesRow second = steady_row(physics);
+    BOOST_TEST(std::abs(2 * first.v_g - second.v_g - row.v_g) < 1e-7);
+    BOOST_TEST(std::abs(2 * first.pressure_drop - second.pressure_drop - row.pressure_drop) <
+               3e-7 * row.pressure_drop + 1e-9);
+  }
+}
+
+// In a weak extension D = (15/8) (2 + nu)/(1 + nu) Ca, whatever the bending stiffness of a thin shell.
+BOOST_AUTO_TEST_CASE(small_deformation_in_extension) {
+  struct Row {
+    LawName law;
+    double dilatation, slope;
+  };
+  for (const Row row :
+       {Row{LawName::neo_hookean, 0, 3.125}, Row{LawName::skalak, 1, 3.125}, Row{LawName::skalak, 0, 3.75}}) {
+    Case physics = extension_case(row.law, row.dilatation, 1e-5);
+    physics.membrane.bending_ratio = 1e-6;
+    const double deformation = steady_row(physics).deformation;
+    BOOST_TEST(std::abs(deformation / 1e-5 - row.slope) < 1e-3 * row.slope);
+  }
+}
+
+// What the whole equations of motion say: the steady shape rests at any viscosity ratio, and their derivative,
+// by differences, is the linear motion's.
+BOOST_AUTO_TEST_CASE(linear_motion_is_the_derivative_of_the_motion) {
+  for (const double lambda : {0.2, 1.0, 5.0}) {
+    Case physics = tube_case(LawName::neo_hookean, 0.7, 0.05, 1e-2);
+    physics.mesh.membrane = 40;
+    physics.accuracy = 1e-6;
+    const SteadyState state = refine(physics, find_steady(physics, {}, {}), {}).state;
+    const Eigen::Index n = state.system->nodes();
+
+    physics.pore.shape = PoreShape::tube;
+    physics.pore.exit_x = 6;
+    physics.pore.entrance_distance = 6;
+    physics.flow.viscosity_ratio = lambda;
+    const Dynamics dynamics = make_dynamics(physics);
+    const Vector position = state.unknowns.head(2 * n);
+    const Vector velocity = dynamics.flow(position).velocity;
+    BOOST_TEST((velocity.head(n).array() - state.unknowns[2 * n]).abs().maxCoeff() < 1e-7);
+    BOOST_TEST(velocity.tail(n).cwiseAbs().maxCoeff() < 1e-7);
+
+    const auto zeta = state.system->membrane().basis.nodes.array();
+    Vector direction(2 * n);
+    direction << (2 * zeta).cos() + 0.3 * (3 * zeta).cos(), zeta.sin() - 0.4 * (4 * zeta).sin();
+    constexpr double h = 1e-4;
+    const auto at = [&](double step) { return dynamics.flow(position + step * h * direction).velocity; };
+    const Vector differences = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
+    const Vector exact = state.system->small_motion(state.unknowns, lambda) * direction;
+    BOOST_TEST((exact - differences).cwiseAbs().maxCoeff() < 1e-6 * differences.cwiseAbs().maxCoeff());
+  }
+}
+
+// Two meshes of which neither knows the other.
+BOOST_AUTO_TEST_CASE(resolutions_agree) {
+  Case physics = tube_case(LawName::skalak, 0.85, 0.05, 1e-3);
+  physics.membrane.dilatation = 0;
+  physics.accuracy = 1e-7;
+  physics.mesh.membrane = 72;
+  const SeriesRow coarse = steady_row(physics);
+  physics.mesh.membrane = 100;
+  const SeriesRow fine = steady_row(physics);
+  BOOST_TEST(std::abs(fine.pressure_drop - coarse.pressure_drop) < 1e-7 * fine.pressure_drop);
+  BOOST_TEST(std::abs(fine.v_g - coarse.v_g) < 1e-8);
+  BOOST_TEST(std::abs(fine.pressure_drop - fine.pressure_drop_reciprocal) < 1e-7 * fine.pressure_drop);
+  BOOST_TEST(std::abs(fine.volume_change) < 1e-12);
+}
+
+// The end of one way is the start of another: the profile of a steady state leads back to it.
+BOOST_AUTO_TEST_CASE(begins_with_a_profile) {
+  const Case physics = tube_case(LawName::neo_hookean, 0.8, 0.05, 1e-3);
+  const Outcome first = steady(physics, {}, {});
+  const Outcome again = steady(physics, first.last.profiles.at(0), {});
+  BOOST_TEST((again.status == Status::steady));
+  BOOST_TEST(std::abs(again.last.series.at(0).pressure_drop - first.last.series.at(0).pressure_drop) < 1e-6);
+}
+
+// Beyond the fold of a neo-Hookean capsule there is nothing to find, and the message says where it lies.
+BOOST_AUTO_TEST_CASE(beyond_the_fold) {
+  const Outcome outcome = steady(tube_case(LawName::neo_hookean, 0.8, 0.25, 1e-2), {}, {});
+  BOOST_TEST((outcome.status == Status::failed));
+  BOOST_TEST(outcome.failure == "fold");
+  BOOST_TEST(outcome.message.find("fold at flow.capillary_number = 0.2") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(stops_when_asked) {
+  Control control;
+  control.interrupted = [] { return true; };
+  BOOST_TEST(
+      (steady(tube_case(LawName::neo_hookean, 0.8, 0.05, 1e-2), {}, control).status == Status::interrupted));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
