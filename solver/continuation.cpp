@@ -2,7 +2,6 @@
 #include "failure.hpp"
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
-#include <optional>
 
 namespace capsule {
 namespace {
@@ -72,7 +71,8 @@ Vector Branch::parameter_slope(const BranchPoint &at) const {
   return (above - below) / (2 * h);
 }
 
-Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step) const {
+Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
+                                  double tolerance) const {
   const Eigen::Index m = from.unknowns.size();
   const Eigen::Index n = system_->nodes();
   Vector row = Vector::Zero(m + 1);
@@ -101,7 +101,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     before = length;
     now.unknowns += change.head(m);
     now.parameter += change[m];
-    if (length < correction_tolerance) {
+    if (length < tolerance) {
       right.setZero();
       right[m] = 1;
       Vector direction = factors.solve(right);
@@ -116,7 +116,7 @@ void Branch::advance() {
   constexpr double straight = 0.85; // cosine between neighbouring tangents
   for (;;) {
     try {
-      const Corrected next = correct(point_, tangent_, step_);
+      const Corrected next = correct(point_, tangent_, step_, correction_tolerance);
       if (weighted(next.tangent, tangent_) > straight) {
         before_ = point_;
         tangent_before_ = tangent_;
@@ -147,17 +147,15 @@ BranchPoint Branch::at_parameter(double parameter) const {
 }
 
 BranchPoint Branch::fold() const {
-  std::optional<BranchPoint> last;
   const auto slope_after = [&](double step) {
-    const Corrected at = correct(before_, tangent_before_, step);
-    last = at.point;
+    const Corrected at = correct(before_, tangent_before_, step, position_tolerance);
     return at.tangent[at.tangent.size() - 1];
   };
   std::uintmax_t evaluations = 30;
   const auto found = boost::math::tools::toms748_solve(
       slope_after, 0.0, last_step_, tangent_before_[tangent_before_.size() - 1], slope(),
       boost::math::tools::eps_tolerance<double>(30), evaluations);
-  return correct(before_, tangent_before_, (found.first + found.second) / 2).point;
+  return correct(before_, tangent_before_, (found.first + found.second) / 2, position_tolerance).point;
 }
 
 } // namespace capsule

@@ -44,7 +44,7 @@ private:
     Vector tangent;
     int iterations = 0;
   };
-  Corrected correct(const BranchPoint &from, const Vector &tangent, double step) const;
+  Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance) const;
   Vector parameter_slope(const BranchPoint &at) const;
   double weighted(const Vector &a, const Vector &b) const;
 

@@ -1,5 +1,6 @@
 // The program `capsule`: its commands and exit codes.
 //   0 done; 1 a comparison differs; 2 bad input or usage; 3 the numerics failed; 4 files; 130 interrupted
+#include "branch.hpp"
 #include "build_info.hpp"
 #include "case_keys.hpp"
 #include "compare.hpp"
@@ -11,6 +12,7 @@
 #include "project.hpp"
 #include "run.hpp"
 #include "steady_state.hpp"
+#include "text.hpp"
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
@@ -59,6 +61,8 @@ struct Arguments {
   bool list = false;     // the runs, instead of computing them
   std::size_t only = 0;  // one run of a sweep, counted from 1; 0: all
   std::string from;      // directory of a run whose last profile is near to the steady state
+  std::string along;     // the key that varies on a branch
+  double to = 0;         // and where it goes
 };
 
 // What is computed of a case, and what computes it.
@@ -174,6 +178,16 @@ int run_steady(const Arguments &arguments) {
   }
   return run(arguments, {task, [&](const Case &physics, const Checkpoint & /*none is saved*/,
                                    const Control &control) { return steady(physics, from, control); }});
+}
+
+int run_branch(const Arguments &arguments) {
+  const Task task{.motion = false,
+                  .name =
+                      fmt::format("branch --along {} --to {}", arguments.along, number_text(arguments.to))};
+  return run(arguments,
+             {task, [&](const Case &physics, const Checkpoint & /*none is saved*/, const Control &control) {
+                return follow_branch(physics, arguments.along, arguments.to, control);
+              }});
 }
 
 int check(const Arguments &arguments) {
@@ -344,6 +358,13 @@ int run_command(int argc, char **argv) {
   steady_app.add_option("--from", arguments.from,
                         "begin with the last profile of a run's directory instead of from nothing");
   steady_app.callback([&] { code = run_steady(arguments); });
+  CLI::App &branch_app = *app.add_subcommand(
+      "branch", "the steady states of every run along one of its keys, through folds: branch.csv");
+  add_computing(branch_app, arguments);
+  add_selection(branch_app, arguments);
+  branch_app.add_option("--along", arguments.along, "the key that varies, from the case's value")->required();
+  branch_app.add_option("--to", arguments.to, "the value of the key where the branch ends")->required();
+  branch_app.callback([&] { code = run_branch(arguments); });
   CLI::App &check_app =
       *app.add_subcommand("check", "compute what is missing and compare with expected values");
   add_computing(check_app, arguments);

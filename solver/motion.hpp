@@ -21,6 +21,13 @@ struct Checkpoint {
   std::vector<Profile> profiles;
 };
 
+// A steady state on a branch.
+struct BranchRow {
+  double parameter = 0;
+  SeriesRow row;
+  double growth_rate = 0; // of the least stable small motion
+};
+
 struct Outcome {
   Status status = Status::failed;
   std::string failure; // NumericsFailure::kind, empty when nothing failed
@@ -29,8 +36,12 @@ struct Outcome {
   // quantity ("v_g", "pressure_drop", ...) -> estimated absolute error
   std::map<std::string, double> error_estimate;
   // Other quantities of summary.json.
-  std::map<std::string, double> further;
+  std::map<std::string, double> further = {};
   int membrane_nodes = 0; // 0: those of choose_resolution
+  // Only of a branch: the key that varies, its points and its folds.
+  std::string along = {};
+  std::vector<BranchRow> branch = {};
+  std::vector<BranchRow> folds = {};
 };
 
 // How the caller listens and interrupts.

@@ -56,6 +56,18 @@ const SeriesColumn *find_series_column(std::string_view name) {
   const auto found = std::ranges::find(series_columns, name, &SeriesColumn::name);
   return found == series_columns.end() ? nullptr : &*found;
 }
+constexpr std::array branch_columns{
+    SeriesColumn{"v_g", &SeriesRow::v_g},
+    SeriesColumn{"pressure_drop", &SeriesRow::pressure_drop},
+    SeriesColumn{"max_stretch", &SeriesRow::max_stretch},
+    SeriesColumn{"min_film", &SeriesRow::min_film},
+    SeriesColumn{"front_stretch", &SeriesRow::front_stretch},
+    SeriesColumn{"length", &SeriesRow::length},
+    SeriesColumn{"deformation", &SeriesRow::deformation},
+    SeriesColumn{"volume_change", &SeriesRow::volume_change},
+    SeriesColumn{"area_change", &SeriesRow::area_change},
+    SeriesColumn{"dents", &SeriesRow::dents},
+};
 
 struct ProfileColumn {
   const char *name;
@@ -155,6 +167,20 @@ std::string series_csv(const std::vector<SeriesRow> &series) {
     }
   }
   return text + "\n";
+}
+
+std::string branch_csv(const Outcome &outcome) {
+  std::string text = outcome.along;
+  for (const SeriesColumn &column : branch_columns)
+    text += fmt::format(",{}", column.name);
+  text += ",growth_rate\n";
+  for (const BranchRow &point : outcome.branch) {
+    text += number_text(point.parameter);
+    for (const SeriesColumn &column : branch_columns)
+      text += ',' + number_text(point.row.*column.value);
+    text += fmt::format(",{}\n", number_text(point.growth_rate));
+  }
+  return text;
 }
 
 std::string profiles_header() {
@@ -313,13 +339,25 @@ Json summary_json(const Case &physics, const Outcome &outcome, const Effort &eff
   };
   for (const SeriesColumn &column : series_columns)
     put(column.name, series.empty() ? std::nullopt : std::optional(series.back().*column.value));
-  const auto peak = outcome.status == Status::steady ? std::nullopt : entry_peak(series);
+  const bool moved = outcome.status != Status::steady && outcome.along.empty();
+  const auto peak = moved ? entry_peak(series) : std::nullopt;
   put("peak_pressure_drop", peak ? std::optional(peak->pressure_drop) : std::nullopt);
   put("x_g_at_peak", peak ? std::optional(peak->x_g) : std::nullopt);
   if (has_physical(physics))
     json["physical"] = physical_json(physics, json);
   for (const auto &[quantity, value] : outcome.further)
     json[quantity] = finite_or_null(value);
+  if (!outcome.along.empty()) {
+    json["along"] = outcome.along;
+    json["folds"] = Json::array();
+    for (const BranchRow &fold : outcome.folds) {
+      Json entry{{outcome.along, fold.parameter}, {"growth_rate", fold.growth_rate}};
+      for (const SeriesColumn &column : branch_columns)
+        if (applies(column.name, physics))
+          entry[column.name] = finite_or_null(fold.row.*column.value);
+      json["folds"].push_back(std::move(entry));
+    }
+  }
   json["error_estimate"] = Json::object();
   for (const auto &[quantity, error] : outcome.error_estimate)
     json["error_estimate"][quantity] = finite_or_null(error);
@@ -373,6 +411,7 @@ bool is_result(const fs::path &file) {
   const std::string name = file.filename().string();
   return name == "summary.json" || name == "series.csv" || name == "series_physical.csv" ||
          name == "profiles.csv" || name == "resolved.toml" || name == "run.json" || name == "membrane.pvd" ||
+         name == "branch.csv" ||
          (name.starts_with("membrane_") && name.ends_with(".vtp"));
 }
 
@@ -528,6 +567,8 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
   if (has_physical(physics))
     write_atomically(directory / "series_physical.csv", physical_series_csv(physics, outcome.last.series));
   write_atomically(directory / "profiles.csv", profiles_csv(profiles));
+  if (!outcome.along.empty())
+    write_atomically(directory / "branch.csv", branch_csv(outcome));
   for (std::size_t i = 0; i < profiles.size(); ++i)
     write_atomically(directory / surface_name(i), surface_vtp(profiles[i]));
   write_atomically(directory / "membrane.pvd", surfaces_pvd(profiles));

@@ -6,6 +6,7 @@
 //   profiles.csv   one row per point of each profile
 //   membrane.pvd, membrane_0000.vtp ...   the profiles as surfaces of revolution, for ParaView
 //   resolved.toml  the complete input, itself a case file
+//   branch.csv     of a branch of steady states: one row per point, its first column the key that varies
 //   run.json       provenance, and the identity by which a finished run is found again
 //   checkpoint.json   while the run is not finished
 // Every function that touches a file throws FileError with the path and the system's reason.

@@ -9,15 +9,13 @@
 #include <fmt/format.h>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 namespace capsule {
 namespace {
 
 constexpr double position_tolerance = 1e-9;
 constexpr double mesh_growth = 1.35;
-// The slack of the equations is the error of discretisation: beyond this the way goes on on a finer mesh.
-constexpr double largest_slack = 5e-7;
-constexpr int most_nodes = 420;
 constexpr double largest_stretch = 4; // as in a march: beyond, the membrane is said to run away
 
 constexpr const char *size_key = "capsule.radius";
@@ -30,10 +28,10 @@ constexpr double weak_flow = 5e-3;
 constexpr double small_radius = 0.6;
 constexpr double stiff_bending = 2e-2; // a shell that does not buckle
 
-double &number(const char *key, Case &physics) {
+double &number(const std::string &key, Case &physics) {
   return std::get<Member<double>>(find_key(key)->field).in(physics);
 }
-double number(const char *key, const Case &physics) {
+double number(const std::string &key, const Case &physics) {
   return std::get<Member<double>>(find_key(key)->field).of(physics);
 }
 
@@ -72,6 +70,35 @@ Vector moved_to(const MeridianBasis &to, const MeridianBasis &from, const Vector
   return moved;
 }
 
+} // namespace
+
+KeyPath::KeyPath(std::string key, const Case &from, double to)
+    : key_(std::move(key)), start_(from), from_(number(key_, from)), to_(to) {}
+
+double KeyPath::value(double part) const {
+  if (part == 0 || part == 1)
+    return part == 0 ? from_ : to_;
+  if (from_ < 0 || to_ < 0)
+    return from_ + part * (to_ - from_);
+  constexpr double power = 8;
+  const double root = (1 - part) * std::pow(from_, 1 / power) + part * std::pow(to_, 1 / power);
+  return std::pow(std::max(root, 0.0), power);
+}
+
+Case KeyPath::at(double part) const {
+  Case physics = start_;
+  number(key_, physics) = value(part);
+  return physics;
+}
+
+std::string KeyPath::text(double part) const {
+  return fmt::format("{} = {:.6g}", key_, value(part));
+}
+
+int finer_mesh(int nodes) {
+  return static_cast<int>(std::ceil(mesh_growth * nodes));
+}
+
 SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state) {
   SteadyState finer{std::make_shared<SteadySystem>(physics, resolution_of(physics, nodes)), {}};
   const Vector guess =
@@ -80,26 +107,7 @@ SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state) {
   return finer;
 }
 
-// One key from the value that it has on the way to the case's; in steps that suit values of any magnitude,
-// zero too.
-class Leg {
-public:
-  Leg(const char *key, const Case &now, double to) : key_(key), now_(now), from_(number(key, now)), to_(to) {}
-  bool needed() const { return from_ != to_; }
-  Case at(double part) const {
-    constexpr double power = 8;
-    const double root = (1 - part) * std::pow(from_, 1 / power) + part * std::pow(to_, 1 / power);
-    Case physics = now_;
-    number(key_, physics) = part == 1 ? to_ : std::pow(std::max(root, 0.0), power);
-    return physics;
-  }
-  std::string text(double part) const { return fmt::format("{} = {:.6g}", key_, number(key_, at(part))); }
-
-private:
-  const char *key_;
-  Case now_;
-  double from_, to_;
-};
+namespace {
 
 // The way from a small stiff sphere in a weak flow to a case's capsule.
 class Way {
@@ -115,7 +123,7 @@ public:
   }
 
   void go(const char *key, double to) {
-    const Leg leg(key, now_, to);
+    const KeyPath leg(key, now_, to);
     double part = leg.needed() ? 0 : 1;
     while (part < 1) {
       const double from = part;
@@ -135,16 +143,15 @@ public:
   const SteadyState &state() const { return state_; }
 
 private:
-  int finer_mesh() const { return static_cast<int>(std::ceil(mesh_growth * nodes())); }
-  int nodes() const { return static_cast<int>(state_.system->nodes()); }
+  int next_mesh() const { return finer_mesh(static_cast<int>(state_.system->nodes())); }
   bool can_refine() const {
-    return finer_mesh() <= (target_.mesh.membrane > 0 ? target_.mesh.membrane : most_nodes);
+    return next_mesh() <= (target_.mesh.membrane > 0 ? target_.mesh.membrane : most_nodes);
   }
-  void refine_at(const Case &physics) { state_ = on_mesh(physics, finer_mesh(), state_); }
+  void refine_at(const Case &physics) { state_ = on_mesh(physics, next_mesh(), state_); }
 
   // Follows the branch, through folds if it comes to that, from one part of the leg to its end or to where a
   // finer mesh is called for. What was reached stays in state_ and reached_ when it fails.
-  double follow(const Leg &leg, double from) {
+  double follow(const KeyPath &leg, double from) {
     constexpr double first_step = 0.2, largest_step = 0.7;
     constexpr int most_steps = 200;
     Branch branch(
@@ -267,17 +274,23 @@ bool agree(const SeriesRow &a, const SeriesRow &b, double accuracy) {
          near(&SeriesRow::front_stretch, a.front_stretch, 1);
 }
 
-SeriesRow row_of(const SteadyState &state) {
+// What a state looks like with its centre at x = 0.
+struct Measured {
+  SeriesRow row;
+  Profile profile;
+};
+Measured measure(const SteadyState &state) {
   const SteadySystem &system = *state.system;
   const Gauge gauge(system.scene(), system.membrane());
   Vector position = state.unknowns.head(2 * system.nodes());
   position.head(system.nodes()).array() -= gauge.centre(position);
   const FlowState flow = system.flow(position);
-  SeriesRow row = gauge.row(0, position, flow.velocity);
-  row.x_g = 0; // what rounding leaves of it
-  row.pressure_drop = flow.pressure_drop;
-  row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
-  return row;
+  Measured measured{gauge.row(0, position, flow.velocity), gauge.profile(0, position, flow.velocity)};
+  measured.row.x_g = 0; // what rounding leaves of it
+  measured.profile.x_g = 0;
+  measured.row.pressure_drop = flow.pressure_drop;
+  measured.row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
+  return measured;
 }
 
 } // namespace
@@ -308,18 +321,18 @@ SteadyState find_steady(const Case &physics, const std::optional<Profile> &from,
 RefinedState refine(const Case &physics, const SteadyState &state, const Control &control) {
   const bool given = physics.mesh.membrane > 0;
   RefinedState refined{given ? on_mesh(physics, 3 * physics.mesh.membrane / 4, state) : state, {}, ""};
-  SeriesRow row = row_of(refined.state);
+  SeriesRow row = measure(refined.state).row;
   for (;;) {
     listen(control);
     const auto now = static_cast<int>(refined.state.system->nodes());
-    const int nodes = given ? physics.mesh.membrane : static_cast<int>(std::ceil(mesh_growth * now));
+    const int nodes = given ? physics.mesh.membrane : finer_mesh(now);
     refined.state = on_mesh(physics, nodes, refined.state);
     const SeriesRow before = row;
-    row = row_of(refined.state);
+    row = measure(refined.state).row;
     refined.error_estimate = differences(row, before);
     if (given || agree(row, before, physics.accuracy))
       return refined;
-    if (nodes * mesh_growth > most_nodes) {
+    if (finer_mesh(nodes) > most_nodes) {
       refined.warning = fmt::format("meshes of {} and {} nodes differ by more than the accuracy asked for; a "
                                     "larger membrane.bending_ratio has smoother shapes",
                                     now, nodes);
@@ -330,13 +343,8 @@ RefinedState refine(const Case &physics, const SteadyState &state, const Control
 
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
   const SteadySystem &system = *state.system;
-  const Gauge gauge(system.scene(), system.membrane());
-  SteadyRecord record;
-  record.row = row_of(state);
-  Vector position = state.unknowns.head(2 * system.nodes());
-  position.head(system.nodes()).array() -= gauge.centre(position);
-  record.profile = gauge.profile(0, position, system.flow(position).velocity);
-  record.profile.x_g = 0;
+  Measured measured = measure(state);
+  SteadyRecord record{measured.row, std::move(measured.profile), {}};
   const std::complex<double> slowest = system.growth_rates(state.unknowns, viscosity_ratio)[0];
   record.rates = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
   if (system.scene().flow.type == FlowType::pore)

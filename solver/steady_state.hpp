@@ -7,8 +7,25 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace capsule {
+
+// A number among the keys of a case, on the way from the value it has there to another; in steps that suit
+// values of any magnitude, zero too.
+class KeyPath {
+public:
+  KeyPath(std::string key, const Case &from, double to);
+  bool needed() const { return from_ != to_; }
+  double value(double part) const; // from `from` at 0 to `to` at 1
+  Case at(double part) const;
+  std::string text(double part) const; // "flow.capillary_number = 0.05"
+
+private:
+  std::string key_;
+  Case start_;
+  double from_, to_;
+};
 
 struct SteadyState {
   std::shared_ptr<SteadySystem> system; // that has taken the state's case
@@ -37,6 +54,13 @@ struct SteadyRecord {
   std::map<std::string, double> rates; // growth_rate, oscillation_rate, growth_per_length
 };
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
+
+// The same state on a mesh of so many nodes.
+SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state);
+int finer_mesh(int nodes);
+constexpr int most_nodes = 420;
+// The slack of the equations is the error of discretisation: beyond this a way goes on on a finer mesh.
+constexpr double largest_slack = 5e-7;
 
 // Thrown where the caller asks to stop.
 struct Interrupted {};
