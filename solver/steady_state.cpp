@@ -275,22 +275,22 @@ bool agree(const SeriesRow &a, const SeriesRow &b, double accuracy) {
 }
 
 // What a state looks like with its centre at x = 0.
-struct Measured {
+struct Portrait {
   SeriesRow row;
   Profile profile;
 };
-Measured measure(const SteadyState &state) {
+Portrait portray(const SteadyState &state) {
   const SteadySystem &system = *state.system;
   const Gauge gauge(system.scene(), system.membrane());
   Vector position = state.unknowns.head(2 * system.nodes());
   position.head(system.nodes()).array() -= gauge.centre(position);
   const FlowState flow = system.flow(position);
-  Measured measured{gauge.row(0, position, flow.velocity), gauge.profile(0, position, flow.velocity)};
-  measured.row.x_g = 0; // what rounding leaves of it
-  measured.profile.x_g = 0;
-  measured.row.pressure_drop = flow.pressure_drop;
-  measured.row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
-  return measured;
+  Portrait portrait{gauge.row(0, position, flow.velocity), gauge.profile(0, position, flow.velocity)};
+  portrait.row.x_g = 0; // what rounding leaves of it
+  portrait.profile.x_g = 0;
+  portrait.row.pressure_drop = flow.pressure_drop;
+  portrait.row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
+  return portrait;
 }
 
 } // namespace
@@ -321,14 +321,14 @@ SteadyState find_steady(const Case &physics, const std::optional<Profile> &from,
 RefinedState refine(const Case &physics, const SteadyState &state, const Control &control) {
   const bool given = physics.mesh.membrane > 0;
   RefinedState refined{given ? on_mesh(physics, 3 * physics.mesh.membrane / 4, state) : state, {}, ""};
-  SeriesRow row = measure(refined.state).row;
+  SeriesRow row = portray(refined.state).row;
   for (;;) {
     listen(control);
     const auto now = static_cast<int>(refined.state.system->nodes());
     const int nodes = given ? physics.mesh.membrane : finer_mesh(now);
     refined.state = on_mesh(physics, nodes, refined.state);
     const SeriesRow before = row;
-    row = measure(refined.state).row;
+    row = portray(refined.state).row;
     refined.error_estimate = differences(row, before);
     if (given || agree(row, before, physics.accuracy))
       return refined;
@@ -343,8 +343,8 @@ RefinedState refine(const Case &physics, const SteadyState &state, const Control
 
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
   const SteadySystem &system = *state.system;
-  Measured measured = measure(state);
-  SteadyRecord record{measured.row, std::move(measured.profile), {}};
+  Portrait portrait = portray(state);
+  SteadyRecord record{portrait.row, std::move(portrait.profile), {}};
   const std::complex<double> slowest = system.growth_rates(state.unknowns, viscosity_ratio)[0];
   record.rates = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
   if (system.scene().flow.type == FlowType::pore)
