@@ -92,11 +92,11 @@ do for [i in timed] {
     (published_position(i) > 0 ? sprintf(" (published: %g)", published_position(i)) : ""))
   marks = marks.mark(i, published_position(i), 0)
 }
-marks = marks.marks_title(marks, "{/:Italic x}_g on the axis")
+marks = marks.marks_title(marks, "{/:Italic x}_g")
 eval figure("fig08", 8.6, 8.6)
 eval view(2.3, 4.8, -1.3, 1.3)
 set xtics 0.5; set ytics 0.5
-set key at 3.62, 0.62 center
+set key at 3.55, 0.5 center
 plot @wall, for [i in timed] for [side=-1:1:2] profiles(run(i)) using (at_time(18.7, "x")):(side * column("r")) \
     with lines linetype i+0 title (side > 0 ? name(i) : "") @marks
 print "**Figure 8.** Profiles at t = 18.7. The less viscous capsule is a parachute already, the most viscous one has a", \

@@ -50,10 +50,17 @@ print sprintf("**Figure 6b.** Successive profiles of the ellipsoid for λ = %g."
   sprintf("the parachute at the end leaves %.3f.", result(one, "min_film"))
 
 eval figure("fig10", 12, 8)
+set multiplot
 set xrange [-4:12]; set yrange [0:50]
 set xlabel x_g_label; set ylabel pressure_label
-set key at 5, 48 left top
+set key at 11.8, 0.5 right bottom
 plot for [i=1:count] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i) @marks
+set origin 0.52, 0.5; set size 0.46, 0.46
+set xrange [9:12]; set yrange [lowest - 0.3:lowest + 1.3]
+set xtics 1; set ytics 0.5
+unset key; unset xlabel; unset ylabel
+replot
+unset multiplot
 peak(i) = sprintf("%.2f at x_g = %.2f for λ = %g", result(run(i), "peak_pressure_drop"), result(run(i), "x_g_at_peak"), \
   lambda(i))
 print "**Figure 10.** Extra pressure drop of the ellipsoid: the entry peak, higher than the steady value, grows with the", \

@@ -8,7 +8,7 @@ published_dP(i) = published(law(i) eq "skalak" ? "F13-SK" : "F13-NH")
 eval figure("fig12", 8.6, 6)
 eval view(last_x_g - 1.4, last_x_g + 1.6, 0, 1.3)
 set xtics 0.5; set ytics 0.5
-set key at last_x_g + 0.75, 0.6
+set key at last_x_g + 0.95, 0.6
 plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" with lines linetype i title name(i)
 print "**Figure 12.** Steady profiles of two spheres that differ in their membrane's law alone, at x_g =", \
   sprintf("%g. The neo-Hookean one is more deformed: its length is %.3f pore radii, the other's %.3f.", last_x_g, \
