@@ -5,14 +5,14 @@ name(i) = "{/:Italic λ} = ".word(lambdas, i)
 row(i, column) = number(system(sprintf("awk -F, 'NR == 1 {for (k = 1; k <= NF; ++k) c[$k] = k} NR == %d {printf \"%%.16e\", $c[\"%s\"]}' %s", \
   i + 1, column, relaxation)))
 rate(i) = row(i, "rate")
-fitted(i, x) = row(i, "amplitude") * exp(-rate(i) * x)
-rates = ""; published_residuals = ""; marks = ""; pressures = ""
+lengths = ""; residuals = ""; marks = ""; pressures = ""
 array A[4]; array R[4]
 do for [i=1:4] {
   A[i] = row(i, "amplitude"); R[i] = rate(i)
   residual = published_of("fig07-viscosity-sphere", "T2-".word(lambdas, i)."-vx")
   marks = marks.mark(i, 11.84, residual)
-  rates = listed(rates, sprintf("%.3f for λ = %s", rate(i), word(lambdas, i)))
+  lengths = listed(lengths, sprintf("%.2f (λ = %s)", 1 / rate(i), word(lambdas, i)))
+  residuals = listed(residuals, sprintf("%.1e", row(i, "residual_at_table2")))
   pressures = listed(pressures, sprintf("%.4f", row(i, "pressure_drop")))
 }
 marks = marks.marks_title(marks, "Table 2")
@@ -25,7 +25,6 @@ set key at 55, 0.9 right top
 plot for [i=1:4] history(i) using "x_g":"max_axial_residual" with lines linetype i title name(i), \
   for [i=1:4] A[i] * exp(-R[i] * x) with lines linetype i linewidth 0.5 dashtype 1 @marks
 print "**Relaxation along the tube.** The largest velocity of the membrane relative to the capsule decays exponentially,", \
-  "the slower the more viscous the inner liquid: rates", rates."." , \
-  sprintf("At x_g = 11.84, where Table 2 is taken, λ = 10 is still at %.1e, λ = 1 at %.1e.", row(4, "residual_at_table2"), \
-    row(2, "residual_at_table2")), \
-  "Once settled in tubes long enough, the pressure drops are", pressures."."
+  "the slower the more viscous the inner liquid: it falls by a factor of e in", lengths, "pore radii.", \
+  sprintf("At x_g = 11.84, where Table 2 is taken, it is still %s:", residuals), \
+  "the rows of the viscous capsules are on their way. Once settled in tubes long enough, the pressure drops are", pressures."."

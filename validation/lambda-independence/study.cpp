@@ -21,22 +21,21 @@ RunInput long_tube(double viscosity_ratio) {
   return run;
 }
 
-// The residual velocity max |v_x - v_g| decays as exp(-rate x_g): least squares over the last two decades above
-// the noise of the time steps.
+// The residual velocity max |v_x - v_g| decays as amplitude exp(-rate x_g): least squares from where it falls below
+// 1e-3, faster modes having gone, to where it meets the noise of the time steps.
 struct Decay {
   double rate = 0;
-  double amplitude = 0; // at x_g = 0
+  double amplitude = 0;
 };
-Decay fit_decay(const StudyRun &run) {
-  constexpr double noise = 3e-6;
-  const std::vector<double> &x = run.history.at("x_g");
-  const std::vector<double> &residual = run.history.at("max_axial_residual");
-  // From the end backwards to where the residual has grown to two decades above its floor.
-  const double floor = std::max(noise, *std::ranges::min_element(residual));
+Decay fit_decay(const History &history) {
+  constexpr double high = 1e-3, low = 2e-5;
+  const std::vector<double> &x = history.at("x_g");
+  const std::vector<double> &residual = history.at("max_axial_residual");
+  std::size_t first = x.size();
+  while (first > 0 && residual[first - 1] < high)
+    --first;
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (std::size_t i = x.size(); i-- > 0 && residual[i] < 100 * floor;) {
-    if (residual[i] < floor)
-      continue;
+  for (std::size_t i = first; i < x.size() && residual[i] > low; ++i) {
     const double y = std::log(residual[i]);
     n += 1;
     sx += x[i];
@@ -48,10 +47,10 @@ Decay fit_decay(const StudyRun &run) {
   return {-slope, std::exp((sy - slope * sx) / n)};
 }
 
-double at_table2(const StudyRun &run, const char *quantity) {
-  const std::vector<double> &x = run.history.at("x_g");
+double at_table2(const History &history, const char *quantity) {
+  const std::vector<double> &x = history.at("x_g");
   const auto nearest = std::ranges::min_element(x, {}, [](double value) { return std::abs(value - 11.84); });
-  return run.history.at(quantity)[static_cast<std::size_t>(nearest - x.begin())];
+  return history.at(quantity)[static_cast<std::size_t>(nearest - x.begin())];
 }
 
 bool study(const std::string &directory, unsigned jobs) {
@@ -68,7 +67,7 @@ bool study(const std::string &directory, unsigned jobs) {
   const Summary &reference = runs[1].summary;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const Summary &summary = runs[k].summary;
-    const Decay decay = fit_decay(runs[k]);
+    const Decay decay = fit_decay(runs[k].history);
     slower = slower && decay.rate < rate_before;
     rate_before = decay.rate;
     const auto value = [&](const char *quantity) { return summary.quantities.at(quantity); };
@@ -86,7 +85,7 @@ bool study(const std::string &directory, unsigned jobs) {
     std::string row = fmt::format("{}", viscosity_ratios[k]);
     for (const double number : {decay.rate, decay.amplitude, value("x_g"), value("v_g"), error("v_g"),
                                 value("pressure_drop"), error("pressure_drop"), value("max_axial_residual"),
-                                at_table2(runs[k], "max_axial_residual"), settled_at})
+                                at_table2(runs[k].history, "max_axial_residual"), settled_at})
       row += fmt::format(",{:.8g}", number);
     table.add(row);
   }
