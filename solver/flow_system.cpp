@@ -281,6 +281,25 @@ FlowState FlowSystem::flow(const Interaction &shape, const Vector &load, Memory 
   return state;
 }
 
+Vector FlowSystem::outer_velocity(const Targets &points, const Interaction &shape, const Vector &load,
+                                  const FlowState &state) const {
+  const Vector strength = stokeslet_factor / capillary_number_ * at_panels(load);
+  RowMatrix layer;
+  assemble_layer(Layer::single, points, shape.membrane, nullptr, resolution_.near_tolerance, layer);
+  Vector velocity = empty_velocity(points) + layer * strength;
+  Vector at_wall = has_wall() ? Vector(shape.single_bm * strength) : Vector();
+  if (viscosity_ratio_ != 1) {
+    const Vector density = (viscosity_ratio_ - 1) * at_panels(state.velocity);
+    assemble_layer(Layer::dbl, points, shape.membrane, nullptr, resolution_.near_tolerance, layer);
+    velocity += layer * density;
+    if (has_wall())
+      at_wall += shape.double_bm * density;
+  }
+  if (has_wall())
+    velocity -= wall_response(points, false) * (wall_inverse_ * at_wall);
+  return velocity;
+}
+
 Matrix FlowSystem::mobility(const Interaction &shape) const {
   const Matrix single = stokeslet_factor / capillary_number_ *
                         layer_with_wall(shape.single_mm, shape.single_bm, wall_answer(shape));

@@ -56,6 +56,9 @@ public:
   };
   // load: nodal q, 2N.
   FlowState flow(const Interaction &shape, const Vector &load, Memory &memory) const;
+  // Velocity of the outer liquid at points off the membrane, 2 n, in the flow that this load has made.
+  Vector outer_velocity(const Targets &points, const Interaction &shape, const Vector &load,
+                        const FlowState &state) const;
   // d velocity/d load for a frozen shape, 2N x 2N.
   Matrix mobility(const Interaction &shape) const;
   // Both layers on nodal densities with what the wall answers, 2N x 2N.

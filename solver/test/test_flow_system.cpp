@@ -181,4 +181,40 @@ BOOST_AUTO_TEST_CASE(pressure_drop_by_two_routes) {
     }
 }
 
+// The liquid around a capsule sticks to the wall, moves with the membrane, and carries the flux pi through every
+// section that misses the capsule.
+BOOST_AUTO_TEST_CASE(velocity_around_a_capsule) {
+  for (const double lambda : {1.0, 5.0}) {
+    Case physics = pore_case(0.7, 5);
+    physics.flow.viscosity_ratio = lambda;
+    const MeridianBasis basis = spectral_basis(40);
+    const Eigen::Index n = basis.size();
+    const FlowSystem system(physics, basis, {});
+    Vector load(2 * n); // as above
+    const Eigen::ArrayXd zeta = basis.nodes;
+    load << (2 * zeta).cos() + 1.0 / 3, (zeta.sin() * (1 + zeta.cos()));
+    const auto shape = system.interact(sphere(basis, 0.7, 5));
+    FlowSystem::Memory memory;
+    const FlowState state = system.flow(shape, load, memory);
+    const GaussRule rule = gauss_legendre(24);
+    for (const double x : {-0.5, 3.5, 6.2}) {
+      const double wall = x < 0 ? std::sqrt(1 + x * x * std::pow(std::tan(78.5 * pi / 180), 2)) : 1;
+      const Vector r = wall / 2 * (1 + rule.nodes.array());
+      const Vector velocity = system.outer_velocity({Vector::Constant(24, x), r}, shape, load, state);
+      const double flux =
+          2 * pi * wall / 2 * rule.weights.dot((velocity.head(24).array() * r.array()).matrix());
+      BOOST_TEST(std::abs(flux - pi) < 1e-5);
+    }
+    const Eigen::Index k = n / 3;
+    const double out = 1 + 1e-6 / 0.7; // a millionth of a radius above the membrane
+    const Targets points{Vector{{5 - 0.7 * out * std::cos(basis.nodes[k]), 5.5}},
+                         Vector{{0.7 * out * std::sin(basis.nodes[k]), 1 - 1e-6}}};
+    const Vector velocity = system.outer_velocity(points, shape, load, state);
+    BOOST_TEST(std::abs(velocity[0] - state.velocity[k]) < 1e-4);
+    BOOST_TEST(std::abs(velocity[2] - state.velocity[n + k]) < 1e-4);
+    BOOST_TEST(std::abs(velocity[1]) < 1e-4);
+    BOOST_TEST(std::abs(velocity[3]) < 1e-4);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
