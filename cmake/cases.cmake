@@ -24,6 +24,10 @@ add_custom_target(ledger
   COMMAND sh -c "$<TARGET_FILE:capsule> ledger --table tables/ledger || test $? = 1"
   COMMENT "Ledger of claims" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} USES_TERMINAL VERBATIM)
 add_dependencies(ledger tables)
+# Every claim must have the verdict that the table records.
+add_test(NAME ledger COMMAND capsule ledger --table ${CMAKE_CURRENT_BINARY_DIR}/ledger --jobs 2
+         WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+set_tests_properties(ledger PROPERTIES LABELS case PROCESSORS 2 TIMEOUT 900 FIXTURES_REQUIRED studies)
 add_dependencies(figures ledger)
 
 # The test case-<name> and the target table-<name> for what `capsule check ...` compares.

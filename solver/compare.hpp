@@ -2,7 +2,7 @@
 // Computed against expected values. Expectations stand in tables/published.csv, one row each, with the columns:
 // - id: "T2-1-vg".
 // - where: "Table 2".
-// - case: the case directory's name; "*" for every case.
+// - case: the case directory's name; "*" for every case that has such runs.
 // - run: which runs of the case: "viscosity_ratio=1", several pairs with "; " between them, several values with "|",
 //   or empty for all.
 // - quantity: "status", or an expression (expression.hpp, run_values.hpp) for each of these runs, or once if it

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <string_view>
 
 namespace capsule {
@@ -40,6 +41,13 @@ Values foremost(const Arguments &arguments, Order order) {
   if (all.empty())
     throw NoValue("no value");
   return {*std::ranges::min_element(all, order)};
+}
+
+Values mean(const Arguments &arguments) {
+  const Values &a = arguments[0];
+  if (a.empty())
+    throw NoValue("no value");
+  return {std::accumulate(a.begin(), a.end(), 0.0) / static_cast<double>(a.size())};
 }
 
 double distance_to_segment(double x, double r, double x0, double r0, double x1, double r1) {
@@ -85,6 +93,7 @@ const std::map<std::string, Function> &functions() {
       {"log", {1, 1, [](const Arguments &a) { return each(a, [](double x) { return std::log(x); }); }}},
       {"max", {1, any_number, [](const Arguments &a) { return foremost(a, std::greater<>()); }}},
       {"min", {1, any_number, [](const Arguments &a) { return foremost(a, std::less<>()); }}},
+      {"mean", {1, 1, mean}},
       {"distance", {4, 4, largest_distance}},
   };
   return table;

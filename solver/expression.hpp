@@ -1,6 +1,7 @@
 #pragma once
 // The language in which tables/published.csv says what is compared: arithmetic on the values of runs.
 //   numbers, + - * / ^, parentheses; abs(a), log(a), max(a, ...), min(a, ...): largest and smallest of all values
+//   mean(a)                  of a list
 //   distance(x, r, x0, r0)   largest distance of the points (x, r) from the line through the points (x0, r0)
 //   name                     a value of the run that the row speaks of
 //   name{runs}               of other runs: "law=skalak; viscosity_ratio=0.2|1|5", "another-case: radius=0.9",

@@ -115,11 +115,23 @@ std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arg
   return compute_case(input, run_options(arguments, input, method.task), method.compute);
 }
 
+// What a study (validation/<name>/study.cpp) has left in its results' summary.json, as one run.
+void add_study(const std::string &name, RunTable &table) {
+  RunResult result;
+  result.directory = fs::path("results") / name;
+  if (!fs::exists(result.directory / "summary.json"))
+    return;
+  result.summary = read_summary(result.directory);
+  table.add(name, {result});
+}
+
 // Computes these cases of the project where they are not finished, into the table; whether all are now.
 bool add_project_cases(const std::vector<std::string> &names, const fs::path &published,
                        const Arguments &arguments, RunTable &table) {
   for (const std::string &name : names) {
     const auto found = find_project_case(published.parent_path().parent_path(), name);
+    if (!found)
+      add_study(name, table);
     if (!found || table.has(name))
       continue;
     const CaseInput input = read_case(found->file);

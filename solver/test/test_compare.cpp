@@ -180,10 +180,10 @@ BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
   check_contains(mistake("a,T,x,,v_g,1,,"), "allowed '' is not a positive number");
   check_contains(mistake("a,T,x,,v_g,1,-1 %,"), "allowed '-1 %' is not");
   check_contains(mistake("a,T,x,,v_g,0,1 %,"), "nothing can be relative");
-  check_contains(mistake("a,T,x,viscosity=1,v_g,1,1 %,"), "unknown key 'viscosity'");
+  check_contains(mistake("a,T,x,size=1,v_g,1,1 %,"), "unknown key 'size'");
   check_contains(mistake("a,T,x,all,v_g,1,1 %,"), "the run 'all' is not of the form");
   check_contains(mistake("a,T,x,,v_g +,1,1 %,"), "a number or a name is missing");
-  check_contains(mistake("a,T,x,,v_g{viscosity=1},1,1 %,"), "unknown key 'viscosity'");
+  check_contains(mistake("a,T,x,,v_g{size=1},1,1 %,"), "unknown key 'size'");
   const std::string row = "a,T,x,,v_g,1,1 %,,";
   check_contains(mistake_in(header + row + "A,number,,,yes,\n"),
                  "the verdict 'yes' is none of 'agrees', 'differs'");

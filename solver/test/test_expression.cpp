@@ -54,6 +54,8 @@ BOOST_AUTO_TEST_CASE(lists) {
   BOOST_TEST(value("min(empty, list)") == 1);
   BOOST_TEST(value("max(abs(list - 2.5))") == 1.5); // a number and a list
   BOOST_TEST(value("max(list*list)") == 9);
+  BOOST_TEST(value("mean(list)") == 2);
+  check_no_value("mean(empty)", "no value");
   check_no_value("list", "several values");
   check_no_value("empty", "no value");
   check_no_value("max(empty)", "no value");

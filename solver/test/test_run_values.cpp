@@ -89,7 +89,7 @@ BOOST_FIXTURE_TEST_CASE(of_other_runs, Project) {
   BOOST_TEST(nothing("v_g{law=neo-hookean}") == "no such run");
   BOOST_TEST(nothing("v_g{nowhere: }") == "no such run");
   BOOST_TEST(nothing("v_g{}") == "several values");
-  BOOST_CHECK_THROW(value("v_g{viscosity=10}"), InputError);
+  BOOST_CHECK_THROW(value("v_g{size=10}"), InputError);
 }
 
 // Each value's own error, added: 0.01/2 + 4 * 0.01/4 for the quotient 4/2 of two runs.
