@@ -13,7 +13,8 @@ namespace capsule {
 namespace {
 
 constexpr double first_step = 0.02;
-constexpr double largest_step = 0.06;
+constexpr double largest_step = 0.04;
+constexpr double accuracy_of_folds = 1e-6;
 constexpr int most_points = 500;
 constexpr double runaway_stretch = 4; // as in a march
 
@@ -66,8 +67,10 @@ private:
 
 } // namespace
 
-Outcome follow_branch(const Case &physics, const std::string &key, double to, const Control &control) {
-  require_way(physics, key, to);
+Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control) {
+  require_way(asked, key, to);
+  Case physics = asked;
+  physics.accuracy = std::min(asked.accuracy, accuracy_of_folds);
   const KeyPath path(key, physics, to);
   Record record(path, physics.flow.viscosity_ratio, control);
   Outcome &outcome = record.outcome;

@@ -24,19 +24,20 @@ bool contracts(int iteration, double before, double now) {
 } // namespace
 
 Vector solve_steady(SteadySystem &system, Vector guess, double tolerance) {
+  constexpr double farthest = 3; // that a guess can be from a solution
   const Eigen::Index n2 = 2 * system.nodes();
   double before = 0;
-  for (int iteration = 0; iteration < 3 * most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < 2 * most_iterations; ++iteration) {
     system.fit_tube(guess);
     const SteadySystem::Linearisation linear = system.linearise(guess);
     const Vector change = linear.jacobian.partialPivLu().solve(-linear.residual);
     const double step = system.admissible_step(guess, change);
     const double length = change.head(n2).cwiseAbs().maxCoeff();
+    if (!(length < farthest) || (iteration > most_iterations && !contracts(iteration, before, length)))
+      no_convergence();
     guess += step * change;
     if (step == 1 && length < tolerance)
       return guess;
-    if (step == 1 && !contracts(iteration, before, length) && iteration > most_iterations)
-      no_convergence();
     before = length;
   }
   no_convergence();

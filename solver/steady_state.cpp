@@ -99,12 +99,54 @@ int finer_mesh(int nodes) {
   return static_cast<int>(std::ceil(mesh_growth * nodes));
 }
 
-SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state) {
-  SteadyState finer{std::make_shared<SteadySystem>(physics, resolution_of(physics, nodes)), {}};
+namespace {
+
+SteadyState straight_to_mesh(const Case &physics, int nodes, const SteadyState &state) {
+  SteadyState moved{std::make_shared<SteadySystem>(physics, resolution_of(physics, nodes)), {}};
   const Vector guess =
-      moved_to(finer.system->membrane().basis, state.system->membrane().basis, state.unknowns);
-  finer.unknowns = solve_steady(*finer.system, guess, position_tolerance);
-  return finer;
+      moved_to(moved.system->membrane().basis, state.system->membrane().basis, state.unknowns);
+  moved.unknowns = solve_steady(*moved.system, guess, position_tolerance);
+  return moved;
+}
+
+// Along a branch to its end on the same mesh.
+void follow(const KeyPath &path, SteadyState &state) {
+  constexpr double first_step = 0.1, largest_step = 0.5;
+  constexpr int most_steps = 60;
+  Branch branch(
+      *state.system, [&](double part) { return path.at(part); }, {state.unknowns, 0}, 1, first_step,
+      largest_step);
+  for (int step = 0; branch.point().parameter < 1; ++step) {
+    if (step == most_steps || branch.point().parameter < 0)
+      throw NumericsFailure("unresolved", fmt::format("no way to {}", path.text(1)),
+                            "try a finer mesh.membrane");
+    branch.advance();
+  }
+  state.unknowns = branch.at_parameter(1).unknowns;
+}
+
+} // namespace
+
+// A shape with folds that its mesh hardly resolves is no good guess on another: then the way leads over a
+// stiffer membrane, whose folds are wider.
+SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state) {
+  try {
+    return straight_to_mesh(physics, nodes, state);
+  } catch (const NumericsFailure &) {
+    const double bending = physics.membrane.bending_ratio;
+    for (const double factor : {4, 16, 64})
+      try {
+        const KeyPath stiffer(bending_key, physics, factor * std::max(bending, 1e-6));
+        SteadyState moved{std::make_shared<SteadySystem>(*state.system), state.unknowns};
+        follow(stiffer, moved);
+        moved = straight_to_mesh(stiffer.at(1), nodes, moved);
+        follow(KeyPath(bending_key, stiffer.at(1), bending), moved);
+        return moved;
+      } catch (const NumericsFailure &) {
+        continue;
+      }
+    throw;
+  }
 }
 
 namespace {

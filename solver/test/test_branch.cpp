@@ -1,0 +1,66 @@
+// Branches of steady states: both ends, the fold between, and what cannot be asked for.
+#include "branch.hpp"
+#include "failure.hpp"
+#include "steady_state.hpp"
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+using namespace capsule;
+
+namespace {
+
+Case neo_hookean_case(int nodes) {
+  Case physics;
+  physics.capsule.radius = 0.8;
+  physics.membrane.bending_ratio = 1e-2;
+  physics.flow.capillary_number = 0.2;
+  physics.accuracy = 1e-7;
+  physics.mesh.membrane = nodes;
+  return physics;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(branch)
+
+// The fold of a neo-Hookean capsule is the same on two meshes, and small motions neither grow nor decay there.
+BOOST_AUTO_TEST_CASE(fold_of_a_neo_hookean_capsule) {
+  double found[2];
+  for (const int k : {0, 1}) {
+    const Outcome outcome =
+        follow_branch(neo_hookean_case(k == 0 ? 64 : 84), "flow.capillary_number", 0.3, {});
+    BOOST_TEST((outcome.status == Status::unbounded));
+    BOOST_REQUIRE(outcome.folds.size() == 1);
+    const BranchRow &fold = outcome.folds[0];
+    found[k] = fold.parameter;
+    const double before = outcome.branch.front().growth_rate;
+    BOOST_TEST(before < -0.05);
+    BOOST_TEST(outcome.branch.back().growth_rate > 0);
+    BOOST_TEST(std::abs(fold.growth_rate) < 1e-6 * std::abs(before));
+    for (const BranchRow &point : outcome.branch)
+      BOOST_TEST(point.parameter < fold.parameter);
+  }
+  BOOST_TEST(std::abs(found[0] - found[1]) < 1e-6 * found[0]);
+}
+
+// Where a branch ends, nothing tells from which side it came.
+BOOST_AUTO_TEST_CASE(the_end_of_a_branch_is_a_steady_state) {
+  Case physics = neo_hookean_case(44);
+  const Outcome outcome = follow_branch(physics, "capsule.radius", 0.7, {});
+  BOOST_TEST((outcome.status == Status::reached));
+  BOOST_TEST(outcome.folds.empty());
+  BOOST_TEST(outcome.branch.back().parameter == 0.7);
+  physics.capsule.radius = 0.7;
+  const SeriesRow direct = steady(physics, {}, {}).last.series.at(0);
+  BOOST_TEST(std::abs(outcome.branch.back().row.pressure_drop - direct.pressure_drop) < 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(no_branch_there) {
+  const Case physics = neo_hookean_case(44);
+  BOOST_CHECK_THROW(follow_branch(physics, "flow.viscosity_ratio", 2, {}), InputError);
+  BOOST_CHECK_THROW(follow_branch(physics, "flow.capilary_number", 2, {}), InputError);
+  BOOST_CHECK_THROW(follow_branch(physics, "flow.capillary_number", -1, {}), InputError);
+  BOOST_CHECK_THROW(follow_branch(physics, "flow.capillary_number", 0.2, {}), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
