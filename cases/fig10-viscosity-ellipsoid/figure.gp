@@ -53,7 +53,7 @@ eval figure("fig10", 12, 8)
 set multiplot
 set xrange [-4:12]; set yrange [0:50]
 set xlabel x_g_label; set ylabel pressure_label
-set key at 11.8, 0.5 right bottom
+set key at 11.8, 0 right bottom spacing 1
 plot for [i=1:count] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i) @marks
 set origin 0.52, 0.5; set size 0.46, 0.46
 set xrange [9:12]; set yrange [lowest - 0.3:lowest + 1.3]
