@@ -49,7 +49,8 @@ sh "$script" cases/small.toml 2 > second.log 2>&1 || true
 build/capsule run cases/small.toml --jobs 1 --out alone > alone.log 2>&1 || true
 same_bytes() {
   for file in series.csv profiles.csv resolved.toml; do
-    for run in alone/*; do
+    for run in alone/*/; do
+      run=${run%/}
       cmp "$run/$file" "results/small/${run##*/}/$file" || fail "$file differs"
     done
   done
