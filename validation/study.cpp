@@ -31,6 +31,17 @@ GridPlace grid_place(double x_g) {
   return {std::lround(place), std::abs(place - std::round(place)) < 1e-6};
 }
 
+// Rows on the grid with x_g in [from, to].
+std::vector<std::size_t> rows_between(const History &history, double from, double to) {
+  constexpr double rounding = 1e-9;
+  const std::vector<double> &x_g = history.at("x_g");
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < x_g.size(); ++k)
+    if (grid_place(x_g[k]).on_grid && x_g[k] > from - rounding && x_g[k] < to + rounding)
+      rows.push_back(k);
+  return rows;
+}
+
 } // namespace
 
 int study_main(int argc, char **argv,
@@ -48,14 +59,15 @@ int study_main(int argc, char **argv,
   }
 }
 
-std::vector<StudyRun> run_all(const std::string &directory, unsigned jobs,
-                              const std::vector<RunInput> &runs) {
+std::vector<StudyRun> run_all(const std::string &directory, unsigned jobs, const std::vector<RunInput> &runs,
+                              Found found) {
   CaseInput input;
   input.name = std::filesystem::path(directory).filename().string();
   input.runs = runs;
   RunOptions options;
   options.directory = directory;
-  options.pool = std::filesystem::path(directory).parent_path() / "runs";
+  if (found == Found::of_this_program)
+    options.pool = std::filesystem::path(directory).parent_path() / "runs";
   options.jobs = jobs;
   std::vector<StudyRun> computed;
   for (const RunResult &result : compute(input, options, march)) {
@@ -94,28 +106,29 @@ StudyRun read_run(const std::filesystem::path &directory) {
   return run;
 }
 
-double history_error(const History &history, const History &reference, const std::string &quantity,
-                     double from, double to) {
+double history_difference(const History &history, const History &reference, const std::string &quantity,
+                          double from, double to) {
   std::map<long, double> computed;
   const std::vector<double> &x_g = history.at("x_g");
   for (std::size_t k = 0; k < x_g.size(); ++k)
     if (const GridPlace place = grid_place(x_g[k]); place.on_grid)
       computed[place.index] = history.at(quantity)[k];
-  double error = 0;
-  double scale = 0;
-  const std::vector<double> &exact_x_g = reference.at("x_g");
-  for (std::size_t k = 0; k < exact_x_g.size(); ++k) {
-    const GridPlace place = grid_place(exact_x_g[k]);
-    if (!place.on_grid || exact_x_g[k] < from - 1e-9 || exact_x_g[k] > to + 1e-9)
-      continue;
-    const auto found = computed.find(place.index);
+  double largest = 0;
+  for (const std::size_t k : rows_between(reference, from, to)) {
+    const auto found = computed.find(grid_place(reference.at("x_g")[k]).index);
     if (found == computed.end())
       return std::numeric_limits<double>::infinity();
-    const double exact = reference.at(quantity)[k];
-    error = std::max(error, std::abs(found->second - exact));
-    scale = std::max(scale, std::abs(exact));
+    largest = std::max(largest, std::abs(found->second - reference.at(quantity)[k]));
   }
-  return error / scale;
+  return largest;
+}
+
+double history_error(const History &history, const History &reference, const std::string &quantity,
+                     double from, double to) {
+  double scale = 0;
+  for (const std::size_t k : rows_between(reference, from, to))
+    scale = std::max(scale, std::abs(reference.at(quantity)[k]));
+  return history_difference(history, reference, quantity, from, to) / scale;
 }
 
 double cpu_seconds() {

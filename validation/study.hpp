@@ -24,15 +24,23 @@ struct StudyRun {
   History history;
 };
 
-// Computes the runs, `jobs` at a time, or finds them computed already by this same program; results go to
-// directory/<name of the run>. Throws what `compute` throws, and a FileError if a run was interrupted.
-std::vector<StudyRun> run_all(const std::string &directory, unsigned jobs, const std::vector<RunInput> &runs);
+// Runs that are found computed already: by this same program, or by any version of it, which is good enough for what
+// others are measured against.
+enum class Found { of_this_program, of_any };
+
+// Computes the runs, `jobs` at a time, or finds them; results go to directory/<name of the run>. Throws what
+// `compute` throws, and a FileError if a run was interrupted.
+std::vector<StudyRun> run_all(const std::string &directory, unsigned jobs, const std::vector<RunInput> &runs,
+                              Found found = Found::of_this_program);
 
 // A run's directory read back.
 StudyRun read_run(const std::filesystem::path &directory);
 
-// Largest difference of two histories of one quantity over the rows whose x_g is a multiple of 0.05 and lies
-// in [from, to], relative to the largest value of the second. Infinite if the first lacks a row.
+// Largest difference of two histories of one quantity over the rows of the second whose x_g is a multiple of 0.05
+// and lies in [from, to]; infinite if the first lacks one of them.
+double history_difference(const History &history, const History &reference, const std::string &quantity,
+                          double from, double to);
+// The same relative to the largest value of the second history in [from, to].
 double history_error(const History &history, const History &reference, const std::string &quantity,
                      double from, double to);
 
