@@ -3,6 +3,7 @@
 #include "motion.hpp"
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <fmt/format.h>
@@ -51,6 +52,7 @@ int study_main(int argc, char **argv,
     fmt::print(stderr, "usage: {} DIRECTORY JOBS\n", argv[0]);
     return 2;
   }
+  std::setvbuf(stdout, nullptr, _IOLBF, 0); // what is found shows at once
   try {
     return study(argv[1], static_cast<unsigned>(jobs)) ? 0 : 1;
   } catch (const std::exception &error) {
