@@ -1,0 +1,167 @@
+// How thin may the film between membrane and wall be? The error of the near-singular quadrature against the film over
+// the panel's length, and capsules up to R_eq = 1.3 that nearly plug the tube.
+#include "study.hpp"
+#include "layer_potential.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+using namespace capsule;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int points = 12; // of a panel
+constexpr double half_length = 1.5, half_width = 0.95;
+
+// A spheroid along the tube, on given panels.
+Curve spheroid(const Panels &panels) {
+  Curve curve;
+  curve.panel_points = panels.rule.size();
+  curve.weights = panels.weights;
+  const auto &zeta = panels.points.array();
+  curve.x = -half_length * zeta.cos();
+  curve.r = half_width * zeta.sin();
+  curve.x_zeta = half_length * zeta.sin();
+  curve.r_zeta = half_width * zeta.cos();
+  complete(curve);
+  return curve;
+}
+
+// A traction or velocity that varies along the membrane: even axial, odd radial component.
+Vector density(const Panels &panels) {
+  const auto &zeta = panels.points.array();
+  Vector values(2 * zeta.size());
+  values << 1 + (2 * zeta).cos(), zeta.sin() + 0.5 * (3 * zeta).sin();
+  return values;
+}
+
+// Velocity at points outside the widest place, at the given distance from the curve and between its points.
+Vector velocity(Layer layer, const Panels &panels, double film, double tolerance) {
+  Targets targets;
+  constexpr int places = 9;
+  targets.x = Vector::LinSpaced(places, -0.17, 0.23); // across a panel
+  targets.r.resize(places);
+  for (int k = 0; k < places; ++k) // along the normal
+  {
+    const double zeta = std::acos(-targets.x[k] / half_length);
+    const double normal_x = -half_width * std::cos(zeta);
+    const double normal_r = half_length * std::sin(zeta);
+    const double length = std::hypot(normal_x, normal_r);
+    targets.r[k] = half_width * std::sin(zeta) + film * normal_r / length;
+    targets.x[k] += film * normal_x / length;
+  }
+  RowMatrix matrix;
+  assemble_layer(layer, targets, spheroid(panels), nullptr, tolerance, matrix);
+  return matrix * density(panels);
+}
+
+Panels uniform_panels(int count) {
+  return make_panels(Vector::LinSpaced(count + 1, 0, pi), points);
+}
+
+// So many panels that Gauss's rule alone bears the film.
+Vector exact_velocity(Layer layer, double film) {
+  constexpr double plain = 1; // a tolerance with which no panel is near
+  const int count = std::max(64, static_cast<int>(std::ceil(half_length * pi / film)));
+  return velocity(layer, uniform_panels(count), film, plain);
+}
+
+bool check(const std::string &claim, bool holds) {
+  fmt::print("stability-film: {}: {}\n", holds ? "HOLDS" : "FAILS", claim);
+  return holds;
+}
+
+bool quadrature(const std::string &directory) {
+  constexpr int panel_count = 16; // as long as with 96 nodes
+  const double panel = half_length * pi / panel_count;
+  const std::vector<double> tolerances{1, 1e-6, 1e-8, 1e-10};
+  Table table("layer,tolerance,film_over_panel,error");
+  double worst = 0;
+  double worst_plain = 0;
+  for (const Layer layer : {Layer::single, Layer::dbl})
+    for (double ratio = 2; ratio > 9e-4; ratio /= std::pow(2, 0.2)) {
+      const double film = ratio * panel;
+      const Vector exact = exact_velocity(layer, film);
+      for (const double tolerance : tolerances) {
+        const double error =
+            (velocity(layer, uniform_panels(panel_count), film, tolerance) - exact).cwiseAbs().maxCoeff() /
+            exact.cwiseAbs().maxCoeff();
+        table.add(fmt::format("{},{:g},{:.5e},{:.3e}", layer == Layer::single ? "single" : "double",
+                              tolerance, ratio, std::max(error, 1e-17)));
+        if (tolerance == 1)
+          worst_plain = std::max(worst_plain, error);
+        else
+          worst = std::max(worst, error / tolerance);
+      }
+    }
+  table.write(directory + "/quadrature.csv");
+  fmt::print("largest error of the near rule {:.2g} of its tolerance; of Gauss's rule alone {:.2g}\n", worst,
+             worst_plain);
+  return check(
+      fmt::format("the near rule's error is below ten times its tolerance for every film (worst {:.1f})",
+                  worst),
+      worst < 10);
+}
+
+Case plug(double radius, double viscosity_ratio, int nodes) {
+  Case physics;
+  physics.accuracy = 1e-3;
+  physics.pore.exit_x = 8;
+  physics.capsule.radius = radius;
+  physics.membrane.law = LawName::skalak;
+  physics.flow.capillary_number = 0.05;
+  physics.flow.viscosity_ratio = viscosity_ratio;
+  physics.mesh.membrane = nodes;
+  physics.until.x_g = 3;
+  return physics;
+}
+
+bool plugs(const std::string &directory, unsigned jobs) {
+  constexpr int nodes = 48;
+  std::vector<RunInput> inputs;
+  const std::vector<std::pair<double, double>> capsules{{0.9, 1}, {0.9, 100}, {1.1, 1}, {1.1, 100}, {1.3, 1}};
+  for (const auto &[radius, ratio] : capsules)
+    inputs.push_back(
+        {fmt::format("radius={},viscosity_ratio={}", radius, ratio), plug(radius, ratio, nodes)});
+  const std::vector<StudyRun> runs = run_all(directory, jobs, inputs);
+  Table table("radius,viscosity_ratio,status,min_film,film_over_panel,v_g,pressure_drop,error,seconds");
+  bool ended = true;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Summary &summary = runs[k].summary;
+    const auto value = [&](const char *name) { return summary.quantities.at(name); };
+    const Case &physics = inputs[k].physics;
+    const double panel = value("length") * 0.65 * points / nodes * pi / 2; // the longest, in the middle
+    const auto error = summary.error_estimate.find("pressure_drop");
+    table.add(fmt::format("{:g},{:g},{},{:.5f},{:.4f},{:.5f},{:.5f},{:.1e},{:.2f}", physics.capsule.radius,
+                          physics.flow.viscosity_ratio, summary.status, value("min_film"),
+                          value("min_film") / panel, value("v_g"), value("pressure_drop"),
+                          error == summary.error_estimate.end() ? NAN : error->second, value("cpu_seconds")));
+    fmt::print("R_eq = {:g}, lambda = {:g}: {} at x_g = {:.2f}, film {:.4f}, {:.2f} of a panel, v_g {:.4f}, "
+               "pressure drop "
+               "{:.3f}, {:.1f} s {}\n",
+               physics.capsule.radius, physics.flow.viscosity_ratio, summary.status, value("x_g"),
+               value("min_film"), value("min_film") / panel, value("v_g"), value("pressure_drop"),
+               value("cpu_seconds"), summary.message);
+    // One that is too thick to give way is squeezed onto the lip.
+    const bool named = summary.failure == "unresolved" || summary.failure == "touching";
+    ended = ended && (summary.status == "reached" || (physics.flow.viscosity_ratio > 1 && named));
+  }
+  table.write(directory + "/plugs.csv");
+  return check(
+      "capsules up to R_eq = 1.3 enter; one that is too viscous for it is said to be unresolved or touching",
+      ended);
+}
+
+bool study(const std::string &directory, unsigned jobs) {
+  make_directories(directory);
+  const bool exact = quadrature(directory);
+  return plugs(directory, jobs) && exact;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  return study_main(argc, argv, study);
+}
