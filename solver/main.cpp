@@ -252,6 +252,7 @@ int ledger(const Arguments &arguments) {
   const auto published = find_expectations(fs::current_path() / "case.toml");
   if (!published)
     throw InputError("error: there is no tables/published.csv here or above\n");
+  const fs::path root = published->parent_path().parent_path();
   const std::vector<Expectation> expectations = read_expectations(*published);
   std::vector<std::string> names = referenced_cases(expectations);
   for (const Expectation &row : expectations)
@@ -259,9 +260,11 @@ int ledger(const Arguments &arguments) {
   RunTable table;
   if (!add_project_cases(names, *published, arguments, table))
     return interrupted;
+  std::vector<std::string> cases = table.cases(); // without the studies
+  std::erase_if(cases, [&](const std::string &name) { return !find_project_case(root, name); });
   std::vector<Comparison> comparisons;
   for (const Expectation &row : expectations)
-    for (const std::string &name : row.case_name == "*" ? table.cases() : std::vector{row.case_name}) {
+    for (const std::string &name : row.case_name == "*" ? cases : std::vector{row.case_name}) {
       const std::vector<Comparison> more = compare({row}, name, table);
       comparisons.insert(comparisons.end(), more.begin(), more.end());
     }

@@ -106,7 +106,11 @@ Values profile_values(const Columns &profiles, const Reference &reference) {
                      : values;
 }
 
-bool is_header_of(const fs::path &file, const std::string &name) {
+// Whether there is such a file (a study leaves a summary only) with such a column.
+bool has_column(const fs::path &file, const std::string &name) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored))
+    return false;
   const std::vector<std::string> lines = read_lines(file);
   const std::vector<std::string> names = split_csv(lines.empty() ? "" : lines[0]);
   return std::ranges::find(names, name) != names.end();
@@ -229,14 +233,14 @@ Values RunTable::values_in(const RunResult &run, const Reference &reference) con
       return {found->second};
     if (const auto value = key_value(reference.name, run.input.physics))
       return {*value};
-  } else if (is_header_of(run.directory / "series.csv", reference.name)) {
+  } else if (has_column(run.directory / "series.csv", reference.name)) {
     if (reference.places.size() > 1)
       throw NoValue("no value");
     const Columns &series = columns(run.directory / "series.csv");
     return values_at(column(series, reference.name), column(series, reference.places[0].column),
                      reference.places[0]);
   }
-  if (run.directory.empty() || !is_header_of(run.directory / "profiles.csv", reference.name))
+  if (!has_column(run.directory / "profiles.csv", reference.name))
     throw NoValue("no value");
   return profile_values(columns(run.directory / "profiles.csv"), reference);
 }
