@@ -70,6 +70,11 @@ struct Verdict {
   bool is_sharp() const { return estimate <= 30 * (difference + floor); }
 };
 
+// What the accuracy asked for speaks of. The others are shown: a single value at the end can be right by accident.
+bool is_promised(const std::string &quantity) {
+  return quantity == "pressure_drop@x_g" || quantity == "v_g@x_g";
+}
+
 bool study(const std::string &directory, unsigned jobs) {
   std::vector<RunInput> inputs;
   for (const Capsule &capsule : capsules()) {
@@ -106,7 +111,7 @@ bool study(const std::string &directory, unsigned jobs) {
       const double floor = quantity == "volume_change" ? 0 : exact.error_estimate.at(quantity);
       const Verdict verdict{error, floor, estimate};
       const bool good = verdict.bounds() && verdict.is_sharp();
-      holds = holds && good;
+      holds = holds && (good || !is_promised(quantity));
       table.add(fmt::format("{},{:.0e},{},{:.9g},{:.3e},{:.3e},{:.3e},{:d},{:d}", name_of(capsule),
                             capsule.accuracy, quantity, value, verdict.difference, floor, estimate,
                             verdict.determined(), good));
