@@ -1,6 +1,7 @@
 #include "study.hpp"
 #include "failure.hpp"
 #include "motion.hpp"
+#include "workers.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -43,6 +44,11 @@ std::vector<std::size_t> rows_between(const History &history, double from, doubl
   return rows;
 }
 
+std::size_t digest_of_this_program() {
+  std::ifstream file("/proc/self/exe", std::ios::binary);
+  return std::hash<std::string>{}(std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
 } // namespace
 
 int study_main(int argc, char **argv,
@@ -78,6 +84,31 @@ std::vector<StudyRun> run_all(const std::string &directory, unsigned jobs, const
     computed.push_back(read_run(result.directory));
   }
   return computed;
+}
+
+std::vector<std::string> make_all(const std::string &directory, unsigned jobs,
+                                  const std::vector<TextTask> &tasks) {
+  const std::filesystem::path parts =
+      std::filesystem::path(directory) / "parts" / fmt::format("{:x}", digest_of_this_program());
+  std::filesystem::create_directories(parts);
+  Work work;
+  work.tasks = tasks.size();
+  work.jobs = jobs;
+  work.task = [&](std::size_t k) {
+    if (!std::filesystem::exists(parts / tasks[k].name))
+      write_atomically(parts / tasks[k].name, tasks[k].make());
+    return 0;
+  };
+  work.watch = [] {};
+  work.finished = [](std::size_t, int) {};
+  Crew crew(tasks.size());
+  run_in_processes(work, crew);
+  std::vector<std::string> texts;
+  for (const TextTask &task : tasks) {
+    std::ifstream file(parts / task.name);
+    texts.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>{});
+  }
+  return texts;
 }
 
 History history_of(const std::vector<SeriesRow> &series) {

@@ -33,6 +33,15 @@ enum class Found { of_this_program, of_any };
 std::vector<StudyRun> run_all(const std::string &directory, unsigned jobs, const std::vector<RunInput> &runs,
                               Found found = Found::of_this_program);
 
+// Text made by tasks in processes of their own, `jobs` at a time, in the order of their names. What this same program has
+// made already is found in directory/parts.
+struct TextTask {
+  std::string name; // of the file that keeps the text
+  std::function<std::string()> make;
+};
+std::vector<std::string> make_all(const std::string &directory, unsigned jobs,
+                                  const std::vector<TextTask> &tasks);
+
 // A run's directory read back.
 StudyRun read_run(const std::filesystem::path &directory);
 
