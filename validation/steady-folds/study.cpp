@@ -1,0 +1,147 @@
+// Up to which capillary number does a steady state exist? Folds of neo-Hookean capsules against size, shape and bending
+// stiffness on two meshes; the same search for Skalak's law.
+#include "failure.hpp"
+#include "steady_folds.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <sstream>
+
+using namespace capsule;
+
+namespace {
+
+constexpr const char *flow_key = "flow.capillary_number";
+constexpr double first_flow = 0.05; // weaker flows may buckle the soft shells
+constexpr double highest_flow = 0.5;
+constexpr int coarse = 96, fine = 128; // nodes
+constexpr double allowed = 1e-6;       // between the meshes, in the capillary number
+
+struct Curve {
+  const char *name;
+  double aspect_ratio, bending_ratio;
+  std::vector<double> radii;
+};
+std::vector<Curve> curves() {
+  return {{"sphere", 1, 1e-3, {0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1, 1.05, 1.1}},
+          {"stiff sphere", 1, 1e-2, {0.7, 0.8, 0.9, 1}},
+          {"flat", 0.5, 1e-3, {0.7, 0.8, 0.9, 1}}};
+}
+
+Case case_of(LawName law, double dilatation, double radius, double aspect_ratio, double bending_ratio) {
+  Case physics;
+  physics.accuracy = 1e-6;
+  physics.membrane.law = law;
+  physics.membrane.dilatation = dilatation;
+  physics.membrane.bending_ratio = bending_ratio;
+  physics.capsule.radius = radius;
+  physics.capsule.aspect_ratio = aspect_ratio;
+  physics.flow.capillary_number = first_flow;
+  return physics;
+}
+
+// A row: where the fold is on both meshes, and what the capsule looks like there.
+std::string neo_hookean_fold(const Curve &curve, double radius) {
+  const Case physics = case_of(LawName::neo_hookean, 1, radius, curve.aspect_ratio, curve.bending_ratio);
+  const FoldSearch search = find_fold(physics, on_mesh(physics, coarse, find_steady(physics, {}, {})),
+                                      flow_key, highest_flow, 0.15);
+  if (!search.fold)
+    throw std::runtime_error(
+        fmt::format("{}, R = {}: no fold, {} at {}", curve.name, radius, search.end, search.last.value));
+  const SteadyPoint first = search.fold->point;
+  const SteadyPoint second = fold_on_mesh(physics, flow_key, highest_flow, *search.fold, fine).point;
+  return fmt::format("{},{},{},{},{:.9f},{:.9f},{:.2e},{:.2e},{:.6f},{:.6f},{:.6f}", curve.name,
+                     curve.aspect_ratio, curve.bending_ratio, radius, second.value, first.value,
+                     second.growth_rate, first.growth_rate, second.row.max_stretch, second.row.min_film,
+                     second.row.pressure_drop);
+}
+
+// A row: how far the branch goes without a fold, on finer meshes where they are called for.
+std::string skalak_branch(double dilatation, double radius) {
+  constexpr double bending_ratio = 1e-2;
+  constexpr int first = 64, finest = 120;
+  Case physics = case_of(LawName::skalak, dilatation, radius, 1, bending_ratio);
+  SteadyState state = on_mesh(physics, first, find_steady(physics, {}, {}));
+  for (;;) {
+    const FoldSearch search = find_fold(physics, state, flow_key, highest_flow, 0.25);
+    const SteadyPoint &last = search.last;
+    const auto nodes = static_cast<int>(state.system->nodes());
+    const std::string row =
+        fmt::format("{},{},{},{},{:.6f},{},{:.4f},{:.4f},{:.6f}", dilatation, radius, bending_ratio,
+                    search.end, last.value, nodes, last.growth_rate, last.row.max_stretch, last.row.min_film);
+    if (search.end != "mesh" || finer_mesh(nodes) > finest)
+      return row;
+    physics.flow.capillary_number = search.last.value;
+    try {
+      state = on_mesh(physics, finer_mesh(nodes), search.state);
+    } catch (const NumericsFailure &) {
+      return row;
+    }
+  }
+}
+
+std::vector<std::string> cells_of(const std::string &row) {
+  std::vector<std::string> cells;
+  std::istringstream stream(row);
+  for (std::string cell; std::getline(stream, cell, ',');)
+    cells.push_back(cell);
+  return cells;
+}
+
+bool study(const std::string &directory, unsigned jobs) {
+  std::vector<TextTask> tasks;
+  for (const Curve &curve : curves())
+    for (const double radius : curve.radii)
+      tasks.push_back({fmt::format("neo-hookean {} {}", curve.name, radius),
+                       [=] { return neo_hookean_fold(curve, radius); }});
+  const std::size_t folds_to_find = tasks.size();
+  for (const double dilatation : {0.0, 1.0, 10.0})
+    for (const double radius : {0.7, 0.9, 1.1})
+      tasks.push_back({fmt::format("skalak {} {}", dilatation, radius),
+                       [=] { return skalak_branch(dilatation, radius); }});
+  const std::vector<std::string> rows = make_all(directory, jobs, tasks);
+
+  Table folds(
+      "capsule,aspect_ratio,bending_ratio,radius,capillary_number,coarse,growth_rate,coarse_growth_rate,"
+      "max_stretch,min_film,pressure_drop");
+  double apart = 0, growth = 0;
+  for (std::size_t k = 0; k < folds_to_find; ++k) {
+    folds.add(rows[k]);
+    const std::vector<std::string> cells = cells_of(rows[k]);
+    apart = std::max(apart, std::abs(std::stod(cells[4]) - std::stod(cells[5])));
+    growth = std::max({growth, std::abs(std::stod(cells[6])), std::abs(std::stod(cells[7]))});
+    fmt::print("NH {:12} R = {:4}: no steady state beyond eps = {}, stretch {} there\n", cells[0], cells[3],
+               cells[4], cells[8]);
+  }
+  folds.write(directory + "/folds.csv");
+  Table ends("dilatation,radius,bending_ratio,end,capillary_number,nodes,growth_rate,max_stretch,min_film");
+  bool none = true, stable = true;
+  double least = highest_flow;
+  for (std::size_t k = folds_to_find; k < rows.size(); ++k) {
+    ends.add(rows[k]);
+    const std::vector<std::string> cells = cells_of(rows[k]);
+    if (std::stod(cells[0]) > 0) { // C
+      none = none && cells[3] != "fold";
+      stable = stable && std::stod(cells[6]) < 0;
+      least = std::min(least, std::stod(cells[4]));
+    }
+    fmt::print("SK C = {:2} R = {:4}: {} at eps = {}, stretch {}, growth rate {}\n", cells[0], cells[1],
+               cells[3] == "mesh" ? "no fold; a finer mesh is needed" : cells[3], cells[4], cells[7],
+               cells[6]);
+  }
+  ends.write(directory + "/skalak.csv");
+  const bool agree = apart <= allowed;
+  const bool neutral = growth <= allowed;
+  const auto verdict = [](bool holds) { return holds ? "HOLDS" : "FAILS"; };
+  fmt::print("steady-folds: {}: folds on two meshes are {:.1e} apart; {}: largest growth rate there {:.1e}\n",
+             verdict(agree), apart, verdict(neutral), growth);
+  fmt::print("steady-folds: {}: no fold of Skalak's law, C = 1 and 10, up to eps = {:.3f}; {}: all stable\n",
+             verdict(none), least, verdict(stable));
+  return agree && neutral && none && stable;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  return study_main(argc, argv, study);
+}

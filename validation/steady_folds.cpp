@@ -1,0 +1,86 @@
+#include "steady_folds.hpp"
+#include "failure.hpp"
+#include <cmath>
+#include <fmt/format.h>
+
+namespace capsule {
+namespace {
+
+constexpr double runaway_stretch = 8; // folds lie below
+constexpr int most_steps = 60;
+
+SteadyPoint point_at(const SteadyState &state, const Case &physics, double value) {
+  state.system->take(physics);
+  const SteadyRecord record = record_steady(state, physics.flow.viscosity_ratio);
+  return {value, record.row, record.rates.at("growth_rate"),
+          std::abs(state.unknowns[state.unknowns.size() - 1])};
+}
+
+double largest_stretch(const SteadyState &state) {
+  const Membrane &membrane = state.system->membrane();
+  return membrane_state(membrane, membrane.at_nodes, state.unknowns.head(2 * state.system->nodes()))
+      .stretch_meridional.maxCoeff();
+}
+
+} // namespace
+
+FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::string &key, double to,
+                     double largest_step, const Look &look) {
+  const KeyPath path(key, physics, to);
+  FoldSearch search;
+  search.state = start;
+  BranchPoint good{start.unknowns, 0};
+  Branch branch(
+      *start.system, [&](double part) { return path.at(part); }, good, 1, largest_step, largest_step);
+  for (int step = 0; search.end.empty(); ++step) {
+    if (step == most_steps) { // short steps: Newton's method has a hard time
+      search.end = "mesh";
+      break;
+    }
+    const double slope = branch.slope();
+    try {
+      branch.advance();
+    } catch (const NumericsFailure &) {
+      search.end = "mesh";
+      break;
+    }
+    BranchPoint now = branch.point();
+    if (std::abs(now.unknowns[now.unknowns.size() - 1]) > largest_slack) {
+      search.end = "mesh";
+      break;
+    }
+    if (slope > 0 && branch.slope() < 0) {
+      search.end = "fold";
+      search.fold = Fold{{}, path.value(good.parameter), {start.system, good.unknowns}};
+      now = branch.fold();
+    } else if (now.parameter >= 1) {
+      search.end = "end of the path";
+      now = branch.at_parameter(1);
+    }
+    good = now;
+    search.state.unknowns = now.unknowns;
+    if (search.end.empty() && largest_stretch(search.state) > runaway_stretch)
+      search.end = "stretch";
+    if (look)
+      look(search.state, path.at(now.parameter));
+  }
+  search.last = point_at(search.state, path.at(good.parameter), path.value(good.parameter));
+  if (search.fold)
+    search.fold->point = search.last;
+  return search;
+}
+
+Fold fold_on_mesh(const Case &physics, const std::string &key, double to, const Fold &fold, int nodes) {
+  const Case before = KeyPath(key, physics, fold.value_before).at(1);
+  const SteadyState state = on_mesh(before, nodes, fold.before);
+  constexpr double short_step = 0.03;
+  const FoldSearch search = find_fold(before, state, key, to, short_step);
+  if (!search.fold)
+    throw NumericsFailure(
+        "unresolved",
+        fmt::format("the fold at {} = {} is not there on {} nodes", key, fold.point.value, nodes),
+        "another mesh");
+  return *search.fold;
+}
+
+} // namespace capsule
