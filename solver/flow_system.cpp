@@ -1,6 +1,7 @@
 #include "flow_system.hpp"
 #include "failure.hpp"
 #include "pore.hpp"
+#include "ring_kernel.hpp"
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double stokeslet_factor = 1 / (8 * pi);
+constexpr int exit_points = 12;
 
 double poiseuille(double r) {
   return 2 * (1 - r * r);
@@ -38,16 +40,27 @@ Matrix to_nodes(const RowMatrix &matrix, const Matrix &even, const Matrix &odd) 
   return result;
 }
 
-// Leaves out the last row: the radial velocity at the exit's axis point.
-void drop_last_row(RowMatrix &matrix) {
-  matrix.conservativeResize(matrix.rows() - 1, Eigen::NoChange);
+// One target's kernels in the rows `target` and `second + target` of a matrix, radial sources from the column
+// `radial` on.
+KernelRow kernel_row(RowMatrix &matrix, Eigen::Index target, Eigen::Index second, Eigen::Index radial) {
+  double *const axial_row = matrix.row(target).data();
+  double *const radial_row = matrix.row(second + target).data();
+  return {axial_row, axial_row + radial, radial_row, radial_row + radial};
+}
+
+Rings rings_of(const Curve &curve) {
+  return {static_cast<int>(curve.size()), curve.x.data(), curve.r.data(), curve.normal_x.data(),
+          curve.normal_r.data()};
 }
 
 } // namespace
 
 FlowSystem::FlowSystem(const Case &physics, const MeridianBasis &basis, const FlowResolution &resolution)
     : capillary_number_(physics.flow.capillary_number), viscosity_ratio_(physics.flow.viscosity_ratio),
-      type_(physics.flow.type), pore_(physics.pore.shape), resolution_(resolution), basis_(basis) {
+      type_(physics.flow.type), pore_(physics.pore.shape), resolution_(resolution), basis_(basis),
+      slope_even_(basis.even(basis.nodes, 1)), slope_odd_(basis.odd(basis.nodes, 1)),
+      near_(resolution.membrane_panel_points, resolution.near_tolerance),
+      exit_near_(exit_points, resolution.near_tolerance) {
   const double first_node = basis.nodes[0];
   panels_ = make_panels(graded_edges(0, pi, 0.75 * first_node, resolution.membrane_panel, Graded::both),
                         resolution.membrane_panel_points);
@@ -79,10 +92,11 @@ void FlowSystem::build_wall(const Pore &pore) {
     wall_.r_zeta[k] = point.normal_x;
   }
   complete(wall_);
+  wall_near_ = FixedNearRule(wall_, resolution_.near_tolerance);
 
-  const Panels across = make_panels(Vector::LinSpaced(3, 0, 1), 16);
+  const Panels across = make_panels(Vector::LinSpaced(2, 0, 1), exit_points);
   const Eigen::Index m = across.points.size();
-  exit_.panel_points = 16;
+  exit_.panel_points = exit_points;
   exit_.weights = across.weights;
   exit_.x = Vector::Constant(m, pore.exit_x);
   exit_.r = 1 - across.points.array();
@@ -96,47 +110,53 @@ void FlowSystem::build_wall(const Pore &pore) {
   wall_targets_.r << wall_.r, 0;
 }
 
-// Velocity at points from phi: 2 n x (2 n_b + 1), less the last radial row where only the axial one is asked
-// for.
-RowMatrix FlowSystem::wall_response(const Targets &points, bool axis_only_last) const {
+// Velocity at points from tractions of the wall and P': 2 n x (2 n_b + 1).
+RowMatrix FlowSystem::wall_response(const Targets &points) const {
   RowMatrix wall;
-  assemble_layer(Layer::single, points, wall_, nullptr, resolution_.near_tolerance, wall);
+  const NearRule near(wall_.panel_points, resolution_.near_tolerance);
+  assemble_layer(Layer::single, points, wall_, nullptr, near, wall);
   RowMatrix exit;
-  assemble_layer(Layer::single, points, exit_, nullptr, resolution_.near_tolerance, exit);
+  assemble_layer(Layer::single, points, exit_, nullptr, exit_near_, exit);
+  const Eigen::Index n = wall_.size();
   RowMatrix response(wall.rows(), unknowns());
-  response.leftCols(wall.cols()) = stokeslet_factor * wall;
-  response.col(unknowns() - 1) = -stokeslet_factor * exit.leftCols(exit_.size()).rowwise().sum(); // f_x = -P
-  if (axis_only_last)
-    drop_last_row(response);
+  response.leftCols(n) = stokeslet_factor * wall.leftCols(n);
+  response.col(n) = -stokeslet_factor * exit.leftCols(exit_.size()).rowwise().sum(); // f_x = -P
+  response.rightCols(n) = stokeslet_factor * wall.rightCols(n);
   return response;
 }
 
 // What is known on the exit section: the shear f_r = -4 r and the double layer of Poiseuille's velocity.
+Vector FlowSystem::exit_field(const RowMatrix &single, const RowMatrix &double_layer) const {
+  const Eigen::Index m = exit_.size();
+  return -4 * stokeslet_factor * (single.rightCols(m) * exit_.r) +
+         double_layer.leftCols(m) * exit_.r.unaryExpr(&poiseuille);
+}
+
 Vector FlowSystem::exit_field(const Targets &points) const {
   RowMatrix single;
   RowMatrix double_layer;
-  assemble_layer(Layer::single, points, exit_, nullptr, resolution_.near_tolerance, single);
-  assemble_layer(Layer::dbl, points, exit_, nullptr, resolution_.near_tolerance, double_layer);
-  const Eigen::Index m = exit_.size();
-  const Vector velocity = exit_.r.unaryExpr(&poiseuille);
+  assemble_layer(Layer::single, points, exit_, nullptr, exit_near_, single);
+  assemble_layer(Layer::dbl, points, exit_, nullptr, exit_near_, double_layer);
   for (Eigen::Index i = 0; i < points.size(); ++i)
     if (points.x[i] == exit_.x[0]) // a plane's double layer vanishes on the plane itself
       double_layer.row(i).setZero();
-  return -4 * stokeslet_factor * (single.rightCols(m) * exit_.r) + double_layer.leftCols(m) * velocity;
+  return exit_field(single, double_layer);
 }
 
 void FlowSystem::solve_empty_pore(const Pore &pore) {
-  const RowMatrix response = wall_response(wall_targets_, true);
-  wall_inverse_ = response.partialPivLu().inverse();
+  const Eigen::Index n = wall_.size();
+  const RowMatrix response = wall_response(wall_targets_).topRows(unknowns()); // without a radial axis point
+  force_.resize(unknowns());
+  force_ << stokeslet_factor * wall_.area, 1, stokeslet_factor * wall_.area;
+  wall_inverse_ = force_.asDiagonal() * response.partialPivLu().inverse();
   if (pore_ == PoreShape::tube) {
     empty_pressure_drop_ = 8 * pore.entrance_arc;
     return;
   }
-  Vector known = exit_field(wall_targets_);
-  known.conservativeResize(unknowns());
-  known[wall_.size()] -= poiseuille(0) / 2; // the axis point's row: beta = 1/2 on the exit section
-  empty_traction_ = -wall_inverse_ * known;
-  empty_pressure_drop_ = -empty_traction_[unknowns() - 1];
+  Vector known = exit_field(wall_targets_).head(unknowns());
+  known[n] -= poiseuille(0) / 2; // the axis point's row: beta = 1/2 on the exit section
+  empty_force_ = -wall_inverse_ * known;
+  empty_pressure_drop_ = -empty_force_[n];
 }
 
 Vector FlowSystem::empty_velocity(const Targets &points) const {
@@ -147,19 +167,20 @@ Vector FlowSystem::empty_velocity(const Targets &points) const {
   else if (pore_ == PoreShape::tube)
     velocity.head(n) = points.r.unaryExpr(&poiseuille);
   else if (pore_ == PoreShape::hyperbolic)
-    velocity = wall_response(points, false) * empty_traction_ + exit_field(points);
+    velocity = wall_response(points) * empty_force_.cwiseQuotient(force_) + exit_field(points);
   return velocity;
 }
 
 Matrix FlowSystem::empty_wall_traction() const {
   const Eigen::Index n = wall_.size();
+  const Vector traction = empty_force_.cwiseQuotient(force_);
   Matrix table(n, 3);
-  table << wall_arc_, empty_traction_.head(n), empty_traction_.segment(n, n);
+  table << wall_arc_, traction.head(n), traction.tail(n);
   return table;
 }
 
 FlowSystem::Interaction FlowSystem::interact(const Vector &position) const {
-  return interact(position, viscosity_ratio_ != 1);
+  return interact(position, has_inner_flow());
 }
 
 FlowSystem::Interaction FlowSystem::interact_in_full(const Vector &position) const {
@@ -178,48 +199,183 @@ FlowSystem::Interaction FlowSystem::interact(const Vector &position, bool with_d
   membrane.x_zeta = even_[1] * shape.nodes.x;
   membrane.r_zeta = odd_[1] * shape.nodes.r;
   complete(membrane);
+  shape.on_nodes = {n,
+                    shape.nodes.x,
+                    shape.nodes.r,
+                    slope_even_ * shape.nodes.x,
+                    slope_odd_ * shape.nodes.r,
+                    basis_.weights,
+                    {},
+                    {},
+                    {},
+                    {}};
+  complete(shape.on_nodes);
 
-  const double tolerance = resolution_.near_tolerance;
-  assemble_layer(Layer::single, shape.nodes, membrane, &self_, tolerance, shape.single_mm);
+  assemble_layer(Layer::single, shape.nodes, membrane, &self_, near_, shape.single_mm);
   if (with_double_layers)
-    assemble_layer(Layer::dbl, shape.nodes, membrane, &self_, tolerance, shape.double_mm);
+    assemble_layer(Layer::dbl, shape.nodes, membrane, &self_, near_, shape.double_mm);
   if (has_wall()) {
-    assemble_layer(Layer::single, wall_targets_, membrane, nullptr, tolerance, shape.single_bm);
-    drop_last_row(shape.single_bm);
-    if (with_double_layers) {
-      assemble_layer(Layer::dbl, wall_targets_, membrane, nullptr, tolerance, shape.double_bm);
-      drop_last_row(shape.double_bm);
-    }
-    shape.from_wall = wall_response(shape.nodes, false);
+    couple_to_wall(shape);
+    refine_near_wall(shape);
+    add_near_rows(shape);
+    couple_to_exit(shape);
   }
-  shape.empty_velocity = pore_ == PoreShape::hyperbolic
-                             ? Vector(shape.from_wall * empty_traction_ + exit_field(shape.nodes))
-                             : empty_velocity(shape.nodes);
+  if (pore_ != PoreShape::hyperbolic)
+    shape.empty_velocity = empty_velocity(shape.nodes);
   return shape;
 }
 
-// C A^(-1): empty without a wall.
-Matrix FlowSystem::wall_answer(const Interaction &shape) const {
-  return has_wall() ? Matrix(shape.from_wall * wall_inverse_) : Matrix();
+void FlowSystem::couple_to_wall(Interaction &shape) const {
+  const Eigen::Index n = basis_.size();
+  const Eigen::Index n_b = wall_.size();
+  const Rings wall = rings_of(wall_);
+  const Rings nodes = rings_of(shape.on_nodes);
+  shape.from_wall.resize(2 * n, unknowns());
+  for (Eigen::Index j = 0; j < n; ++j)
+    ring_stokeslet(shape.nodes.x[j], shape.nodes.r[j], wall, kernel_row(shape.from_wall, j, n, n_b + 1));
+  RowMatrix axis(2, 2 * n);
+  ring_stokeslet(exit_.x[0], 0, nodes, kernel_row(axis, 0, 1, n));
+  shape.to_axis = axis.row(0);
+  if (shape.double_mm.size() == 0)
+    return;
+  shape.double_bm.resize(unknowns(), 2 * n);
+  for (Eigen::Index i = 0; i < n_b; ++i)
+    ring_stresslet(wall_.x[i], wall_.r[i], nodes, kernel_row(shape.double_bm, i, n_b + 1, n));
+  ring_stresslet(exit_.x[0], 0, nodes, kernel_row(axis, 0, 1, n));
+  shape.double_bm.row(n_b) = axis.row(0);
 }
 
-Matrix FlowSystem::layer_with_wall(const RowMatrix &to_membrane, const RowMatrix &to_wall,
-                                   const Matrix &wall_answer) const {
-  Matrix layer = to_nodes(to_membrane, even_[0], odd_[0]);
+// Nodes that the wall's panels are too long for.
+void FlowSystem::refine_near_wall(Interaction &shape) const {
+  const Eigen::Index n = basis_.size();
+  const Eigen::Index p = wall_.panel_points;
+  const Eigen::Index radial = wall_.size() + 1;
+  for (Eigen::Index j = 0; j < n; ++j)
+    wall_near_.at_near_panels(Layer::single, shape.nodes.x[j], shape.nodes.r[j],
+                              [&](Eigen::Index first, KernelBlock &block) {
+                                block.array().rowwise() /= wall_.area.segment(first, p).transpose().array();
+                                KernelBlock difference(4, p);
+                                for (int component = 0; component < 4; ++component) {
+                                  auto stored = shape.from_wall.row(component < 2 ? j : n + j)
+                                                    .segment(component % 2 == 0 ? first : radial + first, p);
+                                  difference.row(component) = stored - block.row(component);
+                                  stored = block.row(component);
+                                }
+                                shape.to_wall.push_back({j, first, std::move(difference)});
+                              });
+}
+
+// Wall points that the rule on the nodes is too coarse for: it converges like exp(-2 pi d/h), h the distance
+// of the nodes and d theirs to the point.
+void FlowSystem::add_near_rows(Interaction &shape) const {
+  const Eigen::Index n = basis_.size();
+  const double spacings = 1.1 * -std::log(resolution_.near_tolerance) / (2 * pi);
+  const Eigen::ArrayXd reach = spacings * pi / static_cast<double>(n) * shape.on_nodes.arc.array();
+  const double largest = reach.maxCoeff();
+  const double low = shape.nodes.x.minCoeff() - largest;
+  const double high = shape.nodes.x.maxCoeff() + largest;
+  std::vector<Eigen::Index> near;
+  for (Eigen::Index i = 0; i < wall_.size(); ++i)
+    if (wall_.x[i] > low && wall_.x[i] < high &&
+        ((shape.nodes.x.array() - wall_.x[i]).square() + (shape.nodes.r.array() - wall_.r[i]).square() <
+         reach.square())
+            .any())
+      near.push_back(i);
+  if (near.empty())
+    return;
+  const auto count = static_cast<Eigen::Index>(near.size());
+  Targets points{wall_.x(near), wall_.r(near)};
+  assemble_layer(Layer::single, points, shape.membrane, nullptr, near_, shape.near_single);
+  if (shape.double_mm.size() > 0)
+    assemble_layer(Layer::dbl, points, shape.membrane, nullptr, near_, shape.near_double);
+  shape.near_row = near;
+  for (Eigen::Index i = 0; i < count; ++i)
+    shape.near_row.push_back(wall_.size() + 1 + near[static_cast<std::size_t>(i)]);
+}
+
+void FlowSystem::couple_to_exit(Interaction &shape) const {
+  RowMatrix single;
+  assemble_layer(Layer::single, shape.nodes, exit_, nullptr, exit_near_, single);
+  shape.from_wall.col(wall_.size()) = -stokeslet_factor * single.leftCols(exit_.size()).rowwise().sum();
+  if (pore_ != PoreShape::hyperbolic)
+    return;
+  RowMatrix double_layer;
+  assemble_layer(Layer::dbl, shape.nodes, exit_, nullptr, exit_near_, double_layer);
+  shape.empty_velocity = shape.from_wall * empty_force_ + exit_field(single, double_layer);
+}
+
+// b from nodal loads, without factors.
+Vector FlowSystem::single_at_wall(const Interaction &shape, const Vector &load) const {
+  const Eigen::Index n = basis_.size();
+  const Eigen::Index n_b = wall_.size();
+  const Eigen::Index p = wall_.panel_points;
+  const Vector force = shape.on_nodes.area.replicate(2, 1).cwiseProduct(load);
+  Vector velocity = shape.from_wall.transpose() * force;
+  for (const auto &[node, first, block] : shape.to_wall) {
+    velocity.segment(first, p) += force[node] * block.row(0) + force[n + node] * block.row(2);
+    velocity.segment(n_b + 1 + first, p) += force[node] * block.row(1) + force[n + node] * block.row(3);
+  }
+  velocity[n_b] = shape.to_axis.dot(force);
+  if (!shape.near_row.empty())
+    velocity(shape.near_row) = shape.near_single * at_panels(load);
+  return velocity;
+}
+
+// The double layer's part of b from nodal velocities, without its factor.
+Vector FlowSystem::double_at_wall(const Interaction &shape, const Vector &density) const {
+  Vector velocity = shape.double_bm * shape.on_nodes.area.replicate(2, 1).cwiseProduct(density);
+  if (!shape.near_row.empty())
+    velocity(shape.near_row) = shape.near_double * at_panels(density);
+  return velocity;
+}
+
+// The same as matrices, unknowns x 2N.
+Matrix FlowSystem::single_at_wall(const Interaction &shape) const {
+  const Eigen::Index n = basis_.size();
+  const Eigen::Index n_b = wall_.size();
+  const Eigen::Index p = wall_.panel_points;
+  Matrix result = shape.from_wall.transpose();
+  for (const auto &[node, first, block] : shape.to_wall) {
+    result.col(node).segment(first, p) += block.row(0);
+    result.col(n + node).segment(first, p) += block.row(2);
+    result.col(node).segment(n_b + 1 + first, p) += block.row(1);
+    result.col(n + node).segment(n_b + 1 + first, p) += block.row(3);
+  }
+  result.row(n_b) = shape.to_axis;
+  result *= shape.on_nodes.area.replicate(2, 1).asDiagonal();
+  if (!shape.near_row.empty())
+    result(shape.near_row, Eigen::all) = to_nodes(shape.near_single, even_[0], odd_[0]);
+  return result;
+}
+
+Matrix FlowSystem::double_at_wall(const Interaction &shape) const {
+  Matrix result = shape.double_bm * shape.on_nodes.area.replicate(2, 1).asDiagonal();
+  if (!shape.near_row.empty())
+    result(shape.near_row, Eigen::all) = to_nodes(shape.near_double, even_[0], odd_[0]);
+  return result;
+}
+
+Matrix FlowSystem::single_layer(const Interaction &shape) const {
+  Matrix layer = to_nodes(shape.single_mm, even_[0], odd_[0]);
   if (has_wall())
-    layer -= wall_answer * to_nodes(to_wall, even_[0], odd_[0]);
+    layer -= shape.from_wall * (wall_inverse_ * single_at_wall(shape));
+  return stokeslet_factor / capillary_number_ * layer;
+}
+
+Matrix FlowSystem::double_layer(const Interaction &shape) const {
+  Matrix layer = to_nodes(shape.double_mm, even_[0], odd_[0]);
+  if (has_wall())
+    layer -= shape.from_wall * (wall_inverse_ * double_at_wall(shape));
   return layer;
 }
 
 FlowSystem::Layers FlowSystem::layers(const Interaction &shape) const {
-  const Matrix answer = wall_answer(shape);
-  return {stokeslet_factor / capillary_number_ * layer_with_wall(shape.single_mm, shape.single_bm, answer),
-          layer_with_wall(shape.double_mm, shape.double_bm, answer)};
+  return {single_layer(shape), double_layer(shape)};
 }
 
 // beta - (lambda - 1) (D_MM - C A^(-1) D_BM) on nodal velocities.
 Matrix FlowSystem::membrane_operator(const Interaction &shape) const {
-  const Matrix layer = layer_with_wall(shape.double_mm, shape.double_bm, wall_answer(shape));
+  const Matrix layer = double_layer(shape);
   return (1 + viscosity_ratio_) / 2 * Matrix::Identity(layer.rows(), layer.cols()) -
          (viscosity_ratio_ - 1) * layer;
 }
@@ -233,10 +389,9 @@ Vector FlowSystem::at_panels(const Vector &nodal) const {
 }
 
 Vector FlowSystem::apply_membrane_operator(const Interaction &shape, const Vector &velocity) const {
-  const Vector density = at_panels(velocity);
-  Vector double_layer = shape.double_mm * density;
+  Vector double_layer = shape.double_mm * at_panels(velocity);
   if (has_wall())
-    double_layer -= shape.from_wall * (wall_inverse_ * (shape.double_bm * density));
+    double_layer -= shape.from_wall * (wall_inverse_ * double_at_wall(shape, velocity));
   return (1 + viscosity_ratio_) / 2 * velocity - (viscosity_ratio_ - 1) * double_layer;
 }
 
@@ -268,16 +423,16 @@ FlowState FlowSystem::flow(const Interaction &shape, const Vector &load, Memory 
   state.velocity = shape.empty_velocity + shape.single_mm * strength;
   Vector at_wall; // b of the head comment
   if (has_wall()) {
-    at_wall = shape.single_bm * strength;
+    at_wall = stokeslet_factor / capillary_number_ * single_at_wall(shape, load);
     state.velocity -= shape.from_wall * (wall_inverse_ * at_wall);
   }
-  if (viscosity_ratio_ != 1) {
+  if (has_inner_flow()) {
     state.velocity = membrane_velocity(shape, state.velocity, memory);
     if (has_wall())
-      at_wall += (viscosity_ratio_ - 1) * (shape.double_bm * at_panels(state.velocity));
+      at_wall += (viscosity_ratio_ - 1) * double_at_wall(shape, state.velocity);
   }
   if (has_wall())
-    state.pressure_drop = wall_inverse_.row(unknowns() - 1).dot(at_wall);
+    state.pressure_drop = wall_inverse_.row(wall_.size()).dot(at_wall);
   return state;
 }
 
@@ -301,27 +456,19 @@ Vector FlowSystem::outer_velocity(const Targets &points, const Interaction &shap
 }
 
 Matrix FlowSystem::mobility(const Interaction &shape) const {
-  const Matrix single = stokeslet_factor / capillary_number_ *
-                        layer_with_wall(shape.single_mm, shape.single_bm, wall_answer(shape));
-  return viscosity_ratio_ == 1 ? single : membrane_operator(shape).partialPivLu().solve(single);
+  const Matrix single = single_layer(shape);
+  return has_inner_flow() ? Matrix(membrane_operator(shape).partialPivLu().solve(single)) : single;
 }
 
 double FlowSystem::reciprocal_pressure_drop(const Interaction &shape, const Vector &load,
                                             const Vector &velocity) const {
-  const Eigen::Index n = basis_.size();
   // int f dA = 2 pi sum area f at the nodes
-  const Vector arc = ((basis_.even(basis_.nodes, 1) * shape.nodes.x).array().square() +
-                      (basis_.odd(basis_.nodes, 1) * shape.nodes.r).array().square())
-                         .sqrt();
-  const Vector area = basis_.weights.array() * arc.array() * shape.nodes.r.array();
-  Vector area2(2 * n);
-  area2 << area, area;
+  const Vector area2 = shape.on_nodes.area.replicate(2, 1);
   double sum = -(load.array() * shape.empty_velocity.array() * area2.array()).sum() / capillary_number_;
-  if (viscosity_ratio_ != 1) {
+  if (has_inner_flow()) {
     // sigma_e n from v_e on the membrane: v_e/2 = S t/(8 pi) + D v_e inside; t is free up to a pressure.
-    Vector normal(2 * n);
-    normal << -(basis_.odd(basis_.nodes, 1) * shape.nodes.r).array() / arc.array(),
-        (basis_.even(basis_.nodes, 1) * shape.nodes.x).array() / arc.array();
+    Vector normal(2 * basis_.size());
+    normal << shape.on_nodes.normal_x, shape.on_nodes.normal_r;
     Matrix single = stokeslet_factor * to_nodes(shape.single_mm, even_[0], odd_[0]);
     single += normal * (normal.array() * area2.array()).matrix().transpose();
     const Vector known =

@@ -36,13 +36,25 @@ public:
   FlowSystem(const Case &physics, const MeridianBasis &basis, const FlowResolution &resolution);
 
   // Everything that depends on the shape alone.
+  // Membrane and wall act on each other through one matrix of kernels between nodes and wall points: the
+  // kernel is symmetric, the wall's panels and the rule on the nodes are the weights. Pairs that are too near
+  // for a rule have their own entries.
   struct Interaction {
-    Curve membrane;
+    Curve membrane; // on panels
+    Curve on_nodes; // with the rule on the nodes
     Targets nodes;
     RowMatrix single_mm, double_mm; // to the membrane's nodes (2N) from its quadrature points (2Q)
-    RowMatrix single_bm, double_bm; // to the wall's points and the exit's axis point (2 n_b + 1)
-    RowMatrix from_wall;            // C: to the membrane's nodes from phi
-    Vector empty_velocity;          // v_e at the nodes
+    RowMatrix from_wall;            // to the membrane's nodes from the forces of wall points and P'
+    struct Difference {             // of a kernel from what stands in from_wall
+      Eigen::Index node, first_point;
+      KernelBlock block;
+    };
+    std::vector<Difference> to_wall;
+    Vector to_axis;                     // from forces on the nodes to the exit's axis point
+    RowMatrix double_bm;                // stresslets of the nodes at the wall's points, unknowns x 2N
+    std::vector<Eigen::Index> near_row; // rows of b whose wall point is too near for the rule on the nodes
+    RowMatrix near_single, near_double; // these rows, from the panels' points (2Q)
+    Vector empty_velocity;              // v_e at the nodes
   };
   Interaction interact(const Vector &position) const;
   // With both layers, whatever lambda.
@@ -79,16 +91,27 @@ public:
   Matrix empty_wall_traction() const;
 
 private:
+  // Order of the wall's unknowns: axial at the wall's points, P', radial at the wall's points; of its
+  // equations: the same, with the axial velocity at the exit's axis point in the middle.
+  bool has_inner_flow() const { return viscosity_ratio_ != 1; }
   bool has_wall() const { return wall_.size() > 0; }
   Eigen::Index unknowns() const { return 2 * wall_.size() + 1; }
   Interaction interact(const Vector &position, bool with_double_layers) const;
   void build_wall(const Pore &pore);
   void solve_empty_pore(const Pore &pore);
   Vector exit_field(const Targets &points) const;
-  RowMatrix wall_response(const Targets &points, bool axis_only_last) const;
-  Matrix layer_with_wall(const RowMatrix &to_membrane, const RowMatrix &to_wall,
-                         const Matrix &wall_answer) const;
-  Matrix wall_answer(const Interaction &shape) const;
+  Vector exit_field(const RowMatrix &single, const RowMatrix &double_layer) const;
+  RowMatrix wall_response(const Targets &points) const;
+  void couple_to_wall(Interaction &shape) const;
+  void refine_near_wall(Interaction &shape) const;
+  void add_near_rows(Interaction &shape) const;
+  void couple_to_exit(Interaction &shape) const;
+  Vector single_at_wall(const Interaction &shape, const Vector &load) const;
+  Vector double_at_wall(const Interaction &shape, const Vector &density) const;
+  Matrix single_at_wall(const Interaction &shape) const;
+  Matrix double_at_wall(const Interaction &shape) const;
+  Matrix single_layer(const Interaction &shape) const; // those of Layers
+  Matrix double_layer(const Interaction &shape) const;
   Matrix membrane_operator(const Interaction &shape) const;
   Vector apply_membrane_operator(const Interaction &shape, const Vector &velocity) const;
   Vector membrane_velocity(const Interaction &shape, const Vector &right, Memory &memory) const;
@@ -102,13 +125,19 @@ private:
   MeridianBasis basis_;
   Panels panels_; // of the membrane, in zeta
   SelfRule self_;
-  Matrix even_[2], odd_[2]; // nodes -> quadrature points: value and derivative
+  Matrix even_[2], odd_[2];       // nodes -> quadrature points: value and derivative
+  Matrix slope_even_, slope_odd_; // nodes -> derivative at the nodes
+  NearRule near_, exit_near_;     // of the membrane's and the exit's panels
   Curve wall_;
   Vector wall_arc_;
-  Curve exit_;            // from the wall to the axis: its normal points out of the liquid
-  Targets wall_targets_;  // wall points and the exit's axis point
-  Matrix wall_inverse_;   // of A: applied several times a step, once to a matrix in a Jacobian
-  Vector empty_traction_; // phi of the empty pore
+  Curve exit_;           // from the wall to the axis: its normal points out of the liquid
+  Targets wall_targets_; // wall points and the exit's axis point
+  FixedNearRule wall_near_;
+  // Of A, with the wall's weights: from b to the forces of wall points and P'. Applied several times a step,
+  // once to a matrix in a Jacobian.
+  Matrix wall_inverse_;
+  Vector force_;       // weights that turn phi into forces
+  Vector empty_force_; // of the empty pore
   double empty_pressure_drop_ = 0;
 };
 

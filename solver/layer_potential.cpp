@@ -1,8 +1,8 @@
 #include "layer_potential.hpp"
 #include "ring_kernel.hpp"
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
 namespace capsule {
 
@@ -43,9 +43,7 @@ SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta) {
 
 namespace {
 
-using Block = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::RowMajor>; // rows xx, xr, rx, rr
-
-KernelRow rows_of(Block &block) {
+KernelRow rows_of(KernelBlock &block) {
   return {block.row(0).data(), block.row(1).data(), block.row(2).data(), block.row(3).data()};
 }
 
@@ -61,6 +59,16 @@ void evaluate(Layer layer, double x0, double r0, const Rings &rings, const Kerne
     ring_stresslet(x0, r0, rings, out);
 }
 
+double squared_distance(double x0, double r0, const Curve &curve, Eigen::Index first, Eigen::Index count) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (Eigen::Index k = first; k < first + count; ++k) {
+    const double dx = curve.x[k] - x0;
+    const double dr = curve.r[k] - r0;
+    nearest = std::min(nearest, dx * dx + dr * dr);
+  }
+  return nearest;
+}
+
 // How far, in half lengths of a panel, a target must be for its p-point rule to err by less than the
 // tolerance: the rule converges like rho^(-2 p) on the Bernstein ellipse through the target, at height
 // sinh(ln rho).
@@ -68,72 +76,14 @@ double near_factor(Eigen::Index points, double tolerance) {
   return std::sinh(-std::log(tolerance) / (2.0 * static_cast<double>(points)));
 }
 
-// The near rule for one target and one panel.
-class NearPanel {
-public:
-  NearPanel(Layer layer, Eigen::Index points, double tolerance)
-      : layer_(layer), factor_(near_factor(points, tolerance)),
-        weights_(gauss_legendre(static_cast<int>(points)).weights) {
-    const Vector nodes = gauss_legendre(static_cast<int>(points)).nodes;
-    halves_[0] = lagrange_matrix(nodes, (nodes.array() - 1) / 2);
-    halves_[1] = lagrange_matrix(nodes, (nodes.array() + 1) / 2);
-  }
-
-  double factor() const { return factor_; }
-
-  // Weights (kernel, area and interpolation) of the panel's own points, 4 x p.
-  Block integrate(double x0, double r0, const Curve &curve, Eigen::Index first) const {
-    const Eigen::Index p = curve.panel_points;
-    Geometry panel(p, 4);
-    panel << curve.x.segment(first, p), curve.r.segment(first, p), curve.x_zeta.segment(first, p),
-        curve.r_zeta.segment(first, p);
-    const double half = curve.weights[first] / weights_[0];
-    return refine(x0, r0, panel, half, 0);
-  }
-
-private:
-  using Geometry = Eigen::Matrix<double, Eigen::Dynamic, 4>; // columns x, r, dx/dzeta, dr/dzeta
-
-  // Below this fraction of a panel nothing is left to integrate: the logarithm's share is at rounding error.
-  static constexpr int deepest = 46;
-
-  Block refine(double x0, double r0, const Geometry &panel, double half, int depth) const {
-    const Eigen::ArrayXd arc = (panel.col(2).array().square() + panel.col(3).array().square()).sqrt();
-    const double nearest =
-        std::sqrt(((panel.col(0).array() - x0).square() + (panel.col(1).array() - r0).square()).minCoeff());
-    if (depth > deepest)
-      return Block::Zero(4, panel.rows());
-    if (nearest < factor_ * half * arc.mean()) {
-      Block sum = Block::Zero(4, panel.rows());
-      for (const Matrix &child : halves_)
-        sum.noalias() += refine(x0, r0, child * panel, half / 2, depth + 1) * child;
-      return sum;
-    }
-    const Eigen::ArrayXd normal_x = -panel.col(3).array() / arc;
-    const Eigen::ArrayXd normal_r = panel.col(2).array() / arc;
-    Block block(4, panel.rows());
-    evaluate(layer_, x0, r0,
-             {static_cast<int>(panel.rows()), panel.col(0).data(), panel.col(1).data(), normal_x.data(),
-              normal_r.data()},
-             rows_of(block));
-    const Eigen::ArrayXd area = half * weights_.array() * arc * panel.col(1).array();
-    block.array().rowwise() *= area.transpose();
-    return block;
-  }
-
-  Layer layer_;
-  double factor_;
-  Vector weights_;
-  std::array<Matrix, 2> halves_;
-};
-
 // Weights of the panels that hold or touch a target on the curve. The kernel is
 // smooth - ln(m1) logarithmic with ln(m1) = ln(gap^2) + a smooth function (layer split of ring_kernel.hpp).
-Block integrate_self(Layer layer, double x0, double r0, const Curve &curve, const SelfRule::Site &site) {
+KernelBlock integrate_self(Layer layer, double x0, double r0, const Curve &curve,
+                           const SelfRule::Site &site) {
   const Eigen::Index n = site.logarithm.size();
   const Eigen::Index first = site.first_point;
-  Block smooth(4, n);
-  Block logarithmic(4, n);
+  KernelBlock smooth(4, n);
+  KernelBlock logarithmic(4, n);
   const Rings rings = rings_of(curve, first, n);
   if (layer == Layer::single)
     ring_stokeslet_split(x0, r0, rings, rows_of(smooth), rows_of(logarithmic));
@@ -152,15 +102,140 @@ Block integrate_self(Layer layer, double x0, double r0, const Curve &curve, cons
 
 } // namespace
 
+NearRule::NearRule(Eigen::Index points, double tolerance) : factor_(near_factor(points, tolerance)) {
+  const GaussRule rule = gauss_legendre(static_cast<int>(points));
+  weights_ = rule.weights;
+  halves_[0] = lagrange_matrix(rule.nodes, (rule.nodes.array() - 1) / 2);
+  halves_[1] = lagrange_matrix(rule.nodes, (rule.nodes.array() + 1) / 2);
+}
+
+KernelBlock NearRule::integrate(Layer layer, double x0, double r0, const Curve &curve,
+                                Eigen::Index first) const {
+  const Eigen::Index p = curve.panel_points;
+  Geometry panel(p, 4);
+  panel << curve.x.segment(first, p), curve.r.segment(first, p), curve.x_zeta.segment(first, p),
+      curve.r_zeta.segment(first, p);
+  const double half = curve.weights[first] / weights_[0];
+  return refine(layer, x0, r0, panel, half, 0);
+}
+
+KernelBlock NearRule::refine(Layer layer, double x0, double r0, const Geometry &panel, double half,
+                             int depth) const {
+  // Below this fraction of a panel nothing is left to integrate: the logarithm's share is at rounding error.
+  constexpr int deepest = 46;
+  const Eigen::ArrayXd arc = (panel.col(2).array().square() + panel.col(3).array().square()).sqrt();
+  const double nearest =
+      std::sqrt(((panel.col(0).array() - x0).square() + (panel.col(1).array() - r0).square()).minCoeff());
+  if (depth > deepest)
+    return KernelBlock::Zero(4, panel.rows());
+  if (nearest < factor_ * half * arc.mean()) {
+    KernelBlock sum = KernelBlock::Zero(4, panel.rows());
+    for (const Matrix &child : halves_)
+      sum.noalias() += refine(layer, x0, r0, child * panel, half / 2, depth + 1) * child;
+    return sum;
+  }
+  const Eigen::ArrayXd normal_x = -panel.col(3).array() / arc;
+  const Eigen::ArrayXd normal_r = panel.col(2).array() / arc;
+  KernelBlock block(4, panel.rows());
+  evaluate(layer, x0, r0,
+           {static_cast<int>(panel.rows()), panel.col(0).data(), panel.col(1).data(), normal_x.data(),
+            normal_r.data()},
+           rows_of(block));
+  const Eigen::ArrayXd area = half * weights_.array() * arc * panel.col(1).array();
+  block.array().rowwise() *= area.transpose();
+  return block;
+}
+
+FixedNearRule::FixedNearRule(const Curve &curve, double tolerance)
+    : curve_(curve), rule_{NearRule(curve.panel_points, tolerance)} {
+  const Eigen::Index p = curve.panel_points;
+  const Eigen::Index panels = curve.size() / p;
+  const GaussRule rule = gauss_legendre(static_cast<int>(p));
+  reach_.resize(panels);
+  span_.resize(panels);
+  for (Eigen::Index k = 0; k < panels; ++k) {
+    const double length = curve.weights.segment(k * p, p).dot(curve.arc.segment(k * p, p));
+    reach_[k] = rule_[0].reach(length);
+    span_[k] = reach_[k] + length;
+  }
+  for (int level = 1; level <= levels; ++level) {
+    const Eigen::Index parts = Eigen::Index{1} << level;
+    Vector nodes(parts * p);
+    for (Eigen::Index part = 0; part < parts; ++part)
+      nodes.segment(part * p, p) =
+          (rule.nodes.array() + static_cast<double>(2 * part + 1 - parts)) / static_cast<double>(parts);
+    Level cut{{}, lagrange_matrix(rule.nodes, nodes)};
+    const auto resample = [&](const Vector &field) {
+      Vector values(panels * parts * p);
+      for (Eigen::Index k = 0; k < panels; ++k)
+        values.segment(k * parts * p, parts * p) = cut.interpolation * field.segment(k * p, p);
+      return values;
+    };
+    Curve &fine = cut.curve;
+    fine.panel_points = p;
+    fine.x = resample(curve.x);
+    fine.r = resample(curve.r);
+    fine.x_zeta = resample(curve.x_zeta);
+    fine.r_zeta = resample(curve.r_zeta);
+    fine.weights.resize(fine.x.size());
+    for (Eigen::Index k = 0; k < panels * parts; ++k)
+      fine.weights.segment(k * p, p) = curve.weights.segment(k / parts * p, p) / static_cast<double>(parts);
+    complete(fine);
+    levels_.push_back(std::move(cut));
+  }
+}
+
+double FixedNearRule::distance_to(Eigen::Index panel, double x0, double r0) const {
+  const Eigen::Index first = panel * curve_.panel_points;
+  if (squared_distance(x0, r0, curve_, first, 1) > span_[panel] * span_[panel])
+    return std::numeric_limits<double>::infinity();
+  return std::sqrt(squared_distance(x0, r0, curve_, first, curve_.panel_points));
+}
+
+KernelBlock FixedNearRule::integrate(Layer layer, double x0, double r0, Eigen::Index panel,
+                                     double distance) const {
+  const Eigen::Index p = curve_.panel_points;
+  // The parts' points may come nearer than those of the panel.
+  const double reach = reach_[panel];
+  int level = std::max(1, static_cast<int>(std::ceil(std::log2(std::min(reach / distance, 1e6)))));
+  const auto too_coarse = [&] {
+    const double needed = reach / static_cast<double>(1 << level);
+    const Eigen::Index n = p << level;
+    return squared_distance(x0, r0, levels_[static_cast<std::size_t>(level) - 1].curve, panel * n, n) <
+           needed * needed;
+  };
+  while (level <= levels && too_coarse())
+    ++level;
+  if (level > levels)
+    return rule_[0].integrate(layer, x0, r0, curve_, panel * p);
+  const auto &[fine, interpolation] = levels_[static_cast<std::size_t>(level) - 1];
+  const Eigen::Index n = interpolation.rows();
+  const Eigen::Index begin = panel * n;
+  KernelBlock kernel(4, n);
+  evaluate(layer, x0, r0, rings_of(fine, begin, n), rows_of(kernel));
+  KernelBlock block = KernelBlock::Zero(4, p);
+  for (int component = 0; component < 4; ++component)
+    for (Eigen::Index k = 0; k < n; ++k)
+      block.row(component) += (kernel(component, k) * fine.area[begin + k]) * interpolation.row(k);
+  return block;
+}
+
 void assemble_layer(Layer layer, const Targets &targets, const Curve &curve, const SelfRule *self,
-                    double tolerance, RowMatrix &matrix) {
+                    const NearRule &near, RowMatrix &matrix) {
   const Eigen::Index nt = targets.size();
   const Eigen::Index q = curve.size();
   const Eigen::Index p = curve.panel_points;
-  const NearPanel near(layer, p, tolerance);
   matrix.resize(2 * nt, 2 * q);
   const Rings rings = rings_of(curve, 0, q);
-  const Vector length = (curve.weights.array() * curve.arc.array()).matrix();
+  // Beyond this distance of a panel's first point all of it is out of reach.
+  const Eigen::Index panels = q / p;
+  Vector reach(panels);
+  Vector sphere(panels);
+  for (Eigen::Index k = 0; k < panels; ++k) {
+    const double length = curve.weights.segment(k * p, p).dot(curve.arc.segment(k * p, p));
+    reach[k] = near.reach(length);
+    sphere[k] = reach[k] + length;
+  }
   for (Eigen::Index i = 0; i < nt; ++i) {
     const double x0 = targets.x[i];
     const double r0 = targets.r[i];
@@ -169,7 +244,7 @@ void assemble_layer(Layer layer, const Targets &targets, const Curve &curve, con
     evaluate(layer, x0, r0, rings, {axial, axial + q, radial, radial + q});
     for (double *component : {axial, axial + q, radial, radial + q})
       Eigen::Map<Eigen::ArrayXd>(component, q) *= curve.area.array();
-    const auto replace = [&](const Block &block, Eigen::Index first) {
+    const auto replace = [&](const KernelBlock &block, Eigen::Index first) {
       const Eigen::Index n = block.cols();
       matrix.row(i).segment(first, n) = block.row(0);
       matrix.row(i).segment(q + first, n) = block.row(1);
@@ -184,15 +259,14 @@ void assemble_layer(Layer layer, const Targets &targets, const Curve &curve, con
       self_end = site.first_point + site.logarithm.size();
       replace(integrate_self(layer, x0, r0, curve, site), self_begin);
     }
-    for (Eigen::Index first = 0; first < q; first += p) {
+    for (Eigen::Index k = 0; k < panels; ++k) {
+      const Eigen::Index first = k * p;
       if (first >= self_begin && first < self_end)
         continue;
-      const double reach = near.factor() * length.segment(first, p).sum() / 2;
-      const double nearest2 = ((curve.x.segment(first, p).array() - x0).square() +
-                               (curve.r.segment(first, p).array() - r0).square())
-                                  .minCoeff();
-      if (nearest2 < reach * reach)
-        replace(near.integrate(x0, r0, curve, first), first);
+      if (squared_distance(x0, r0, curve, first, 1) > sphere[k] * sphere[k])
+        continue;
+      if (squared_distance(x0, r0, curve, first, p) < reach[k] * reach[k])
+        replace(near.integrate(layer, x0, r0, curve, first), first);
     }
   }
 }

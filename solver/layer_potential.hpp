@@ -46,10 +46,64 @@ SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta);
 
 enum class Layer { single, dbl };
 
+// Weights (kernel, area and interpolation) of points of a curve for one target: rows xx, xr, rx, rr as in
+// ring_kernel.hpp, a column a point.
+using KernelBlock = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::RowMajor>;
+
+// The near rule for panels of p points: which targets need it, and the weights that it gives.
+class NearRule {
+public:
+  // tolerance: relative accuracy asked for.
+  NearRule(Eigen::Index points, double tolerance);
+  // How near a target may come to a panel of this arc length before the panel's own rule fails.
+  double reach(double panel_length) const { return factor_ * panel_length / 2; }
+  // The panel that begins at point `first`; any target, on the panel too.
+  KernelBlock integrate(Layer layer, double x0, double r0, const Curve &curve, Eigen::Index first) const;
+
+private:
+  using Geometry = Eigen::Matrix<double, Eigen::Dynamic, 4>; // columns x, r, dx/dzeta, dr/dzeta
+  KernelBlock refine(Layer layer, double x0, double r0, const Geometry &panel, double half, int depth) const;
+
+  double factor_;
+  Vector weights_;
+  Matrix halves_[2]; // values on a half from those on the whole panel
+};
+
+// The near rule on a curve that stays: all panels are cut beforehand into 2, 4, 8 and 16 equal parts.
+class FixedNearRule {
+public:
+  FixedNearRule() = default;
+  FixedNearRule(const Curve &curve, double tolerance);
+  // Calls use(first point, weights) for each panel that the target is too near to.
+  template <class Use>
+  void at_near_panels(Layer layer, double x0, double r0, Use &&use) const {
+    for (Eigen::Index panel = 0; panel < reach_.size(); ++panel)
+      if (const double distance = distance_to(panel, x0, r0); distance < reach_[panel]) {
+        KernelBlock weights = integrate(layer, x0, r0, panel, distance);
+        use(panel * curve_.panel_points, weights);
+      }
+  }
+
+private:
+  // Of the nearest of the panel's points; infinite where the panel is surely out of reach.
+  double distance_to(Eigen::Index panel, double x0, double r0) const;
+  KernelBlock integrate(Layer layer, double x0, double r0, Eigen::Index panel, double distance) const;
+
+  static constexpr int levels = 4;
+  struct Level {
+    Curve curve;
+    RowMatrix interpolation; // the parts' points from those of the panel
+  };
+  Curve curve_;
+  Vector reach_; // of each panel
+  Vector span_;  // of each panel: reach and length
+  std::vector<NearRule> rule_;
+  std::vector<Level> levels_;
+};
+
 // `self` is null when the targets are no fixed points of the curve. Targets nearer to a panel than its Gauss
-// rule can bear get the near rule, down to targets on the curve. tolerance: relative accuracy asked of the
-// near rule.
+// rule can bear get the near rule, down to targets on the curve.
 void assemble_layer(Layer layer, const Targets &targets, const Curve &curve, const SelfRule *self,
-                    double tolerance, RowMatrix &matrix);
+                    const NearRule &near, RowMatrix &matrix);
 
 } // namespace capsule

@@ -51,7 +51,7 @@ Vector uniform_axial(Eigen::Index n) {
 
 RowMatrix assemble(Layer layer, const Targets &targets, const Spheroid &s, bool on_surface) {
   RowMatrix matrix;
-  assemble_layer(layer, targets, s.curve, on_surface ? &s.self : nullptr, 1e-12, matrix);
+  assemble_layer(layer, targets, s.curve, on_surface ? &s.self : nullptr, NearRule(s.curve.panel_points, 1e-12), matrix);
   return matrix;
 }
 
