@@ -135,7 +135,7 @@ private:
   FixedNearRule wall_near_;
   // Of A, with the wall's weights: from b to the forces of wall points and P'. Applied several times a step,
   // once to a matrix in a Jacobian.
-  Matrix wall_inverse_;
+  RowMatrix wall_inverse_;
   Vector force_;       // weights that turn phi into forces
   Vector empty_force_; // of the empty pore
   double empty_pressure_drop_ = 0;

@@ -5,7 +5,6 @@
 #include "time_step.hpp"
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -215,18 +214,23 @@ private:
     }
   }
 
+  // x_g is nearly linear in a step: the secant rule needs about three values; halving guards it.
   template <class Function>
   static double crossing_time(const Function &ahead, double since, double now) {
-    const double at_start = ahead(since);
-    if (at_start >= 0)
+    double low = since, high = now;
+    double before = low, time = high;
+    double at_before = ahead(before), at_time = ahead(time);
+    if (at_before >= 0)
       return since;
-    const double at_end = ahead(now);
-    if (at_end == 0)
-      return now;
-    std::uintmax_t iterations = 50;
-    const auto bracket = boost::math::tools::toms748_solve(
-        ahead, since, now, at_start, at_end, boost::math::tools::eps_tolerance<double>(48), iterations);
-    return (bracket.first + bracket.second) / 2;
+    for (int k = 0; k < 100 && std::abs(at_time) > 1e-13; ++k) {
+      const double secant = time - at_time * (time - before) / (at_time - at_before);
+      before = time;
+      at_before = at_time;
+      time = secant > low && secant < high ? secant : (low + high) / 2;
+      at_time = ahead(time);
+      (at_time < 0 ? low : high) = time;
+    }
+    return time;
   }
 
   void record(double time, const Vector &position, bool profile) {

@@ -130,8 +130,12 @@ Gauge::Integrals Gauge::integrals(const Vector &position) const {
 }
 
 double Gauge::centre(const Vector &position) const {
-  const Integrals now = integrals(position);
-  return now.first_moment / now.volume;
+  const Eigen::Index n = membrane_.basis.size();
+  const Eigen::ArrayXd x = panels_.even[0] * position.head(n);
+  const Eigen::ArrayXd r = panels_.odd[0] * position.tail(n);
+  const Eigen::ArrayXd slice =
+      panels_.weights.array() * r.square() * (panels_.even[1] * position.head(n)).array();
+  return (slice * x).sum() / slice.sum();
 }
 
 double Gauge::film(const Vector &position) const {
@@ -140,19 +144,28 @@ double Gauge::film(const Vector &position) const {
   const Eigen::Index n = membrane_.basis.size();
   const Vector x = fine_.even[0] * position.head(n);
   const Vector r = fine_.odd[0] * position.tail(n);
-  Vector gap(x.size()); // radial, an upper bound of the distance
-  for (Eigen::Index k = 0; k < x.size(); ++k)
-    gap[k] = wall_radius(*pore_, x[k]) - r[k];
-  // The wall is nowhere steeper than its asymptote, so that the distance is at least gap cos(alpha); a
-  // right-angled mouth has no such bound.
-  const double steepest = pore_->cosine;
-  double nearest = gap.minCoeff();
-  Vector distance = gap;
-  for (Eigen::Index k = 0; k < x.size(); ++k)
-    if (!(gap[k] * steepest > nearest)) {
-      distance[k] = wall_distance(*pore_, x[k], r[k]);
-      nearest = std::min(nearest, distance[k]);
+  // From one point to the next the distance cannot fall by more than the way between them: points that are
+  // surely farther than the nearest one are passed over.
+  Vector distance(x.size());
+  double nearest = std::numeric_limits<double>::infinity();
+  Eigen::Index last = 0;
+  Eigen::Index best = 0;
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const double way = std::hypot(x[k] - x[last], r[k] - r[last]);
+    if (k > 0 && distance[last] - way > nearest) {
+      distance[k] = distance[last] - way;
+      continue;
     }
+    distance[k] = wall_distance(*pore_, x[k], r[k]);
+    last = k;
+    if (distance[k] < nearest) {
+      nearest = distance[k];
+      best = k;
+    }
+  }
+  for (const Eigen::Index k : {best - 1, best + 1})
+    if (k >= 0 && k < x.size())
+      distance[k] = wall_distance(*pore_, x[k], r[k]);
   return -refined_maximum(-distance);
 }
 
@@ -164,10 +177,31 @@ bool Gauge::crosses_itself(const Vector &position) const {
   const auto side = [&](Eigen::Index a, Eigen::Index b, Eigen::Index c) {
     return (x[b] - x[a]) * (r[c] - r[a]) - (r[b] - r[a]) * (x[c] - x[a]);
   };
-  for (Eigen::Index i = 0; i + 1 < x.size(); ++i)
-    for (Eigen::Index j = i + 2; j + 1 < x.size(); ++j)
-      if (side(i, i + 1, j) * side(i, i + 1, j + 1) < 0 && side(j, j + 1, i) * side(j, j + 1, i + 1) < 0)
-        return true;
+  // Runs of segments whose boxes are apart have nothing in common.
+  constexpr Eigen::Index run = 8;
+  const Eigen::Index runs = (x.size() - 1 + run - 1) / run;
+  Matrix box(4, runs);
+  for (Eigen::Index a = 0; a < runs; ++a) {
+    const Eigen::Index points = std::min(run + 1, x.size() - a * run);
+    const auto run_x = x.segment(a * run, points), run_r = r.segment(a * run, points);
+    box.col(a) << run_x.minCoeff(), run_x.maxCoeff(), run_r.minCoeff(), run_r.maxCoeff();
+  }
+  const auto apart = [&](Eigen::Index a, Eigen::Index b) {
+    return box(0, a) > box(1, b) || box(0, b) > box(1, a) || box(2, a) > box(3, b) || box(2, b) > box(3, a);
+  };
+  const auto cross = [&](Eigen::Index i, Eigen::Index j) {
+    return side(i, i + 1, j) * side(i, i + 1, j + 1) < 0 && side(j, j + 1, i) * side(j, j + 1, i + 1) < 0;
+  };
+  const auto end = [&](Eigen::Index a) { return std::min((a + 1) * run, x.size() - 1); };
+  for (Eigen::Index a = 0; a < runs; ++a)
+    for (Eigen::Index b = a; b < runs; ++b) {
+      if (apart(a, b))
+        continue;
+      for (Eigen::Index i = a * run; i < end(a); ++i)
+        for (Eigen::Index j = std::max(b * run, i + 2); j < end(b); ++j)
+          if (cross(i, j))
+            return true;
+    }
   return false;
 }
 

@@ -59,23 +59,31 @@ double hyperbola_parameter(const Pore &pore, double arc) {
   return w;
 }
 
-// Signed distance to the hyperbola of a point with x < 0. The solid wall is convex, so the foot of a point of
-// the liquid is unique: the offset along the tangent changes sign there once.
+// Signed distance to the hyperbola of a point with x < 0. With t = sinh(w) the foot is the root of
+//   f(t) = (t/sin^2 - r t/rho) cos^2 + cos cot x,  rho^2 = 1 + cos^2 t^2,
+// half the derivative of the squared distance. The solid wall is convex, so the foot of a point of the liquid
+// is unique: f changes sign there once.
 double hyperbola_distance(const Pore &pore, double x, double r) {
-  const auto offset = [&](double w) {
-    const HyperbolaPoint p = hyperbola_point(pore, w);
-    return (x - p.x) * p.slope_x + (r - p.r) * p.slope_r;
-  };
+  const double k = pore.cosine, c = k / pore.sine;
+  const auto radius = [&](double t) { return std::sqrt(1 + k * k * t * t); };
   // The foot lies between the lip and the point of the wall at the distance of (x, r) from the origin, or at
-  // its x.
+  // its x. Newton's method, and halving where it would leave the bracket.
   double low = 0;
-  double high = std::asinh((std::hypot(x, r) + 1) * pore.sine / (pore.cosine * pore.cosine));
+  double high = (std::hypot(x, r) + 1) * pore.sine / (k * k);
+  double t = -x / (k * c);
   for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
-    const double middle = 0.5 * (low + high);
-    (offset(middle) > 0 ? low : high) = middle;
+    const double rho = radius(t);
+    const double value = k * k * t * (1 / (pore.sine * pore.sine) - r / rho) + k * c * x;
+    const double slope = k * k * (1 / (pore.sine * pore.sine) - r / (rho * rho * rho));
+    (value < 0 ? low : high) = t;
+    const double newton = t - value / slope;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    const double step = std::abs(next - t);
+    t = next;
+    if (step <= 1e-15 * high)
+      break;
   }
-  const HyperbolaPoint foot = hyperbola_point(pore, 0.5 * (low + high));
-  const double distance = std::hypot(x - foot.x, r - foot.r);
+  const double distance = std::hypot(x + k * c * t, r - radius(t));
   return r <= wall_radius(pore, x) ? distance : -distance;
 }
 
