@@ -15,6 +15,7 @@ namespace {
 constexpr double row_spacing = 0.05;  // of x_g
 constexpr int rows_in_time = 200;     // where time tells the progress
 constexpr double runaway_stretch = 4; // a membrane stretched beyond is reported as unbounded
+constexpr int steps_between_checkpoints = 250;
 constexpr double volume_drift_bound = 1e-2;
 // Buckles that the mesh cannot resolve: dents of the meridian, most of whose bending is in the shortest
 // waves.
@@ -144,7 +145,7 @@ private:
       dynamics_.forget();
       try {
         BdfIntegrator integrator(equations, record_.time, record_.position, tolerance);
-        if (const auto status = run_leg(integrator, 100))
+        if (const auto status = run_leg(integrator, steps_between_checkpoints))
           return *status;
       } catch (const NumericsFailure &failure) {
         if (failure.kind == "step" && cause_)

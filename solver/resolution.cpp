@@ -10,12 +10,13 @@ Resolution choose_resolution(const Case &physics) {
   // The rim of a flat spheroid folds more sharply than any part of a sphere.
   const double flatness = std::max(1.0, 1 / physics.capsule.aspect_ratio);
   Resolution resolution;
-  resolution.membrane_nodes = physics.mesh.membrane > 0
-                                  ? physics.mesh.membrane
-                                  : static_cast<int>(std::lround((48 + 12 * digits) * std::sqrt(flatness)));
+  resolution.membrane_nodes =
+      physics.mesh.membrane > 0
+          ? physics.mesh.membrane
+          : static_cast<int>(std::lround(std::max(64.0, 16 + 16 * digits) * std::sqrt(flatness)));
   const int nodes = resolution.membrane_nodes;
   resolution.energy_points = nodes * 5 / 4 + 8;
-  resolution.time_tolerance = physics.time.tolerance > 0 ? physics.time.tolerance : 2e-4 * physics.accuracy;
+  resolution.time_tolerance = physics.time.tolerance > 0 ? physics.time.tolerance : 1e-3 * physics.accuracy;
 
   FlowResolution &flow = resolution.flow;
   // A panel of p Gauss points resolves about two thirds of the waves that p equidistant nodes would.

@@ -38,7 +38,7 @@ Case short_entrance() {
   physics.capsule.radius = 0.8;
   physics.flow.capillary_number = 0.09;
   physics.mesh.membrane = 24;
-  physics.time.tolerance = 1e-9; // many steps: the march passes a checkpoint
+  physics.time.tolerance = 1e-11; // many steps: the march passes a checkpoint
   physics.until.x_g = 0.5;
   return physics;
 }
