@@ -12,7 +12,8 @@
 namespace capsule {
 namespace {
 
-constexpr double row_spacing = 0.05;  // of x_g
+constexpr double row_spacing = 0.05; // of x_g
+constexpr double companion_row_spacing = 0.25;
 constexpr int rows_in_time = 200;     // where time tells the progress
 constexpr double runaway_stretch = 4; // a membrane stretched beyond is reported as unbounded
 constexpr int steps_between_checkpoints = 250;
@@ -53,18 +54,20 @@ std::vector<Station> stations(double from, double spacing, std::optional<double>
   return merged;
 }
 
-// Whether wrinkles stop the march; a coarse companion may have some where the fine one has none.
-enum class Watch { wrinkles, nothing };
+// The march that is asked for, or its coarse companion: this one needs fewer rows, and may wrinkle where the
+// other does not.
+enum class Part { leading, companion };
 
 // The march of one case: integrates, records what is due, and stops.
 class March {
 public:
-  March(const Case &physics, const Checkpoint &from, const Control &control, Watch watch)
-      : physics_(physics), control_(control), watch_(watch), dynamics_(make_dynamics(physics)),
+  March(const Case &physics, const Checkpoint &from, const Control &control, Part part)
+      : physics_(physics), control_(control), part_(part), dynamics_(make_dynamics(physics)),
         gauge_(physics, dynamics_.membrane), record_(from) {
     const Vector &start = started() ? record_.position : dynamics_.start;
     const bool by_position = physics.until.x_g.has_value();
-    by_x_g_ = stations(gauge_.centre(start), row_spacing, physics.until.x_g, physics.output.profiles_at_x_g);
+    by_x_g_ = stations(gauge_.centre(start), part == Part::leading ? row_spacing : companion_row_spacing,
+                       physics.until.x_g, physics.output.profiles_at_x_g);
     const double end = physics.until.time.value_or(std::numeric_limits<double>::infinity());
     by_time_ = stations(record_.time, by_position ? end : end / rows_in_time, physics.until.time,
                         physics.output.profiles_at_time);
@@ -251,7 +254,7 @@ private:
       throw NumericsFailure("volume",
                             fmt::format("the volume has drifted by {:.2g} %", 100 * row.volume_change),
                             "try a smaller accuracy (or time.tolerance) or a finer mesh.membrane");
-    if (watch_ == Watch::wrinkles && row.dents >= wrinkle_dents && row.roughness > wrinkle_roughness)
+    if (part_ == Part::leading && row.dents >= wrinkle_dents && row.roughness > wrinkle_roughness)
       throw NumericsFailure(
           "wrinkled",
           fmt::format("the membrane has wrinkled: {} dents, most of their bending in waves that the "
@@ -267,7 +270,7 @@ private:
 
   const Case &physics_;
   const Control &control_;
-  Watch watch_;
+  Part part_;
   Dynamics dynamics_;
   Gauge gauge_;
   Checkpoint record_;
@@ -277,16 +280,18 @@ private:
   std::size_t next_x_g_ = 0, next_time_ = 0;
 };
 
-// The same motion on three quarters of the nodes and with a tenth of the accuracy in all else: what changes
-// between the two is an upper bound of the finer one's error as long as both converge.
-Case companion(const Case &physics) {
+// The same motion on a mesh and with a tolerance that let each kind of error grow about tenfold.
+Case companion(const Case &physics, const std::vector<SeriesRow> &fine) {
   Case coarse = physics;
-  coarse.accuracy = std::min(10 * physics.accuracy, 1e-2);
-  coarse.mesh.membrane = 3 * choose_resolution(physics).membrane_nodes / 4;
-  if (physics.mesh.wall > 0)
-    coarse.mesh.wall = 3 * physics.mesh.wall / 4;
+  const Resolution chosen = choose_resolution(physics);
+  coarse.mesh.membrane = 4 * chosen.membrane_nodes / 5;
+  coarse.mesh.wall = 3 * chosen.wall_points / 4;
   coarse.time.step = 4 * physics.time.step / 3; // as stable on its nodes as the fine one's
-  coarse.time.tolerance = 5 * choose_resolution(physics).time_tolerance;
+  coarse.time.tolerance = 15 * chosen.time_tolerance;
+  coarse.output = {};
+  if (const std::optional<Peak> peak = entry_peak(fine)) // rows close enough to find it again
+    for (const double row : {-1.0, 0.0, 1.0})
+      coarse.output.profiles_at_x_g.push_back((std::round(peak->x_g / row_spacing) + row) * row_spacing);
   return coarse;
 }
 
@@ -348,13 +353,13 @@ std::map<std::string, double> differences(const std::vector<SeriesRow> &fine,
 } // namespace
 
 Outcome march(const Case &physics, const Checkpoint &from, const Control &control) {
-  Outcome outcome = March(physics, from, control, Watch::wrinkles).run();
+  Outcome outcome = March(physics, from, control, Part::leading).run();
   if (outcome.status != Status::reached || physics.numerics == Numerics::paper)
     return outcome;
   Control quiet;
   quiet.interrupted = control.interrupted;
-  const Case coarse = companion(physics);
-  const Outcome second = March(coarse, {}, quiet, Watch::nothing).run();
+  const Case coarse = companion(physics, outcome.last.series);
+  const Outcome second = March(coarse, {}, quiet, Part::companion).run();
   if (second.status == Status::interrupted)
     outcome.status = Status::interrupted;
   else if (second.status == Status::reached) {

@@ -8,6 +8,7 @@ namespace capsule {
 struct Resolution {
   int membrane_nodes = 64; // N
   int energy_points = 160; // where the elastic energy is sampled
+  int wall_points = 400;   // N_B, about
   FlowResolution flow;
   double time_tolerance = 1e-6; // absolute error of the nodes' positions in a step
 };

@@ -283,8 +283,8 @@ double estimated_seconds(const Case &physics) {
     const double stages = physics.time.scheme == Scheme::euler ? 1 : 4;
     return 1.6 * stages * 3e-3 * size * duration / physics.time.step;
   }
-  const double whole_entrance = physics.flow.viscosity_ratio == 1 ? 4 : 8;
-  return whole_entrance * size * duration / 25;
+  const double whole_entrance = physics.flow.viscosity_ratio == 1 ? 0.7 : 2;
+  return whole_entrance * std::pow(chosen.membrane_nodes / 64.0, 2) * duration / 25;
 }
 
 } // namespace capsule

@@ -51,7 +51,8 @@ Vector uniform_axial(Eigen::Index n) {
 
 RowMatrix assemble(Layer layer, const Targets &targets, const Spheroid &s, bool on_surface) {
   RowMatrix matrix;
-  assemble_layer(layer, targets, s.curve, on_surface ? &s.self : nullptr, NearRule(s.curve.panel_points, 1e-12), matrix);
+  assemble_layer(layer, targets, s.curve, on_surface ? &s.self : nullptr,
+                 NearRule(s.curve.panel_points, 1e-12), matrix);
   return matrix;
 }
 
@@ -122,6 +123,32 @@ BOOST_AUTO_TEST_CASE(gauss_identity_of_the_stresslet) {
     BOOST_TEST((assemble(Layer::dbl, shifted(s, a, b, -depth), s, false) * uniform - expected)
                    .cwiseAbs()
                    .maxCoeff() < 1e-9);
+}
+
+// The panels cut beforehand do the same, from a film of 1/3 to one of 1/2000 of a panel.
+BOOST_AUTO_TEST_CASE(fixed_near_rule_keeps_the_single_layer_of_the_normal_at_zero) {
+  const double a = 0.385;
+  const double b = 1.3757;
+  const Spheroid s = spheroid(a, b, 64);
+  const Eigen::Index p = s.curve.panel_points;
+  const Eigen::Index q = s.curve.size();
+  const FixedNearRule fixed(s.curve, 1e-12);
+  const NearRule never(p, 1.0);
+  const double panel = s.curve.weights.segment(q / 2, p).dot(s.curve.arc.segment(q / 2, p));
+  for (const double share : {1.0 / 3, 1.0 / 20, 1.0 / 200, 1.0 / 2000}) {
+    const Targets off = shifted(s, a, b, share * panel);
+    RowMatrix matrix;
+    assemble_layer(Layer::single, off, s.curve, nullptr, never, matrix);
+    for (Eigen::Index i = 0; i < off.size(); ++i)
+      fixed.at_near_panels(Layer::single, off.x[i], off.r[i],
+                           [&](Eigen::Index first, const KernelBlock &block) {
+                             matrix.row(i).segment(first, p) = block.row(0);
+                             matrix.row(i).segment(q + first, p) = block.row(1);
+                             matrix.row(off.size() + i).segment(first, p) = block.row(2);
+                             matrix.row(off.size() + i).segment(q + first, p) = block.row(3);
+                           });
+    BOOST_TEST((matrix * normal_density(s.curve)).cwiseAbs().maxCoeff() < 1e-10);
+  }
 }
 
 // The near rule keeps its accuracy down to a film of 1/1000 of a panel, for the same density from near and
