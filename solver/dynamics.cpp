@@ -5,12 +5,28 @@
 #include "pore.hpp"
 #include "quadrature.hpp"
 #include "resolution.hpp"
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
 
 namespace capsule {
 namespace {
+
+// The same spheroid with its nodes elsewhere: where the rear folds, from the equator to half way to the upstream
+// pole, up to 1.6 times as dense, at the front up to 1.7 times less dense. The angle is a smooth odd function of
+// zeta, so that shapes keep their parities and the basis its exponential convergence.
+void cluster_nodes(Membrane &membrane) {
+  const Eigen::Index n = membrane.basis.size();
+  const Eigen::ArrayXd zeta = membrane.basis.nodes;
+  const Eigen::ArrayXd angle = zeta + 0.2 * (2 * zeta).sin() - 0.3 * zeta.sin();
+  const double half_length = -membrane.reference[0] / std::cos(zeta[0]);
+  const double radius = membrane.reference[n] / std::sin(zeta[0]);
+  membrane.reference << -half_length * angle.cos(), radius * angle.sin();
+  const MembraneState undeformed = membrane_state(membrane, membrane.sampling, membrane.reference);
+  membrane.reference_shape = {undeformed.r, undeformed.arc, undeformed.curvature_meridional,
+                              undeformed.curvature_azimuthal};
+}
 
 Vector start_position(const Membrane &membrane, double start_x) {
   Vector start = membrane.reference;
@@ -55,6 +71,7 @@ Dynamics standard_dynamics(const Case &physics) {
   const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
   Dynamics dynamics;
   dynamics.membrane = make_membrane(physics, basis, energy_rule.nodes, energy_rule.weights);
+  cluster_nodes(dynamics.membrane);
   dynamics.start = start_position(dynamics.membrane, physics.capsule.start_x);
   const auto system = std::make_shared<const FlowSystem>(physics, basis, resolution.flow);
   const auto membrane = std::make_shared<const Membrane>(dynamics.membrane);

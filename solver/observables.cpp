@@ -27,15 +27,29 @@ Sampling pole_to_pole(const MeridianBasis &basis) {
   return sample(basis, Vector::LinSpaced(n, pole_gap, pi - pole_gap), Vector::Zero(n));
 }
 
-// Largest value of the parabola through the largest sample and its neighbours.
+// Largest value of the quartic through the largest sample and two neighbours on each side; next to an end, of
+// the parabola through three.
 double refined_maximum(const Vector &f) {
   Eigen::Index k = 0;
   const double best = f.maxCoeff(&k);
   if (k == 0 || k == f.size() - 1)
     return best;
-  const double slope = (f[k + 1] - f[k - 1]) / 2;
-  const double bend = f[k + 1] - 2 * f[k] + f[k - 1];
-  return bend < 0 ? best - slope * slope / (2 * bend) : best;
+  const bool inside = k > 1 && k + 2 < f.size();
+  const double near_sum = f[k + 1] + f[k - 1], near_difference = f[k + 1] - f[k - 1];
+  const double far_sum = inside ? f[k + 2] + f[k - 2] : 4 * near_sum - 6 * best;
+  const double far_difference = inside ? f[k + 2] - f[k - 2] : 2 * near_difference;
+  // Derivatives in units of the spacing.
+  const double d1 = (8 * near_difference - far_difference) / 12,
+               d2 = (16 * near_sum - far_sum - 30 * best) / 12;
+  const double d3 = far_difference / 2 - near_difference, d4 = far_sum - 4 * near_sum + 6 * best;
+  double t = 0;
+  for (int step = 0; step < 4; ++step) {
+    const double bend = d2 + t * (d3 + t * d4 / 2);
+    if (!(bend < 0))
+      return best;
+    t = std::clamp(t - (d1 + t * (d2 + t * (d3 / 2 + t * d4 / 6))) / bend, -1.0, 1.0);
+  }
+  return std::max(best, best + t * (d1 + t * (d2 / 2 + t * (d3 / 6 + t * d4 / 24))));
 }
 
 // Stretches of negative kappa_s whose integral over the arc passes dent_angle.
@@ -163,7 +177,7 @@ double Gauge::film(const Vector &position) const {
       best = k;
     }
   }
-  for (const Eigen::Index k : {best - 1, best + 1})
+  for (const Eigen::Index k : {best - 2, best - 1, best + 1, best + 2})
     if (k >= 0 && k < x.size())
       distance[k] = wall_distance(*pore_, x[k], r[k]);
   return -refined_maximum(-distance);

@@ -51,7 +51,7 @@ struct Profile {
 };
 
 // Measures the shapes that one membrane takes in one pore. Integrals are taken on Gauss panels, extremes on
-// points four times as dense as the nodes with a parabola through the best three.
+// points four times as dense as the nodes with a quartic through the best five.
 class Gauge {
 public:
   Gauge(const Case &physics, const Membrane &membrane);

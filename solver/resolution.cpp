@@ -9,7 +9,7 @@ Resolution choose_resolution(const Case &physics) {
   const double digits = -std::log10(physics.accuracy);
   const double aspect = physics.capsule.aspect_ratio;
   // The rim of a flat spheroid folds more sharply than any part of a sphere, and one that is wider than the
-  // tube leaves a thinner film.
+  // tube rides closer to the wall: over panels that are too long the pressure drop oscillates.
   const double flatness = std::max(1.0, 1 / aspect);
   const bool tight = physics.capsule.radius / std::cbrt(aspect) > 0.95;
   Resolution resolution;
@@ -30,7 +30,7 @@ Resolution choose_resolution(const Case &physics) {
   flow.lip_panel = digits > 5 ? 0.02 : 0.08;
   // About two fifths of the wall's points lie in the tube.
   const double tube_points = physics.pore.exit_x * flow.wall_panel_points;
-  const double panel = std::clamp(1.15 - 0.1 * digits, 0.4, 0.8) - (tight ? 0.15 : 0);
+  const double panel = std::clamp(1.15 - 0.1 * digits, 0.4, 0.8) - (tight ? 0.25 : 0);
   resolution.wall_points =
       physics.mesh.wall > 0 ? physics.mesh.wall : static_cast<int>(std::lround(tube_points / (0.4 * panel)));
   flow.wall_panel = tube_points / (0.4 * resolution.wall_points);
