@@ -5,7 +5,6 @@
 #include "pore.hpp"
 #include "quadrature.hpp"
 #include "resolution.hpp"
-#include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -13,19 +12,11 @@
 namespace capsule {
 namespace {
 
-// The same spheroid with its nodes elsewhere: where the rear folds, from the equator to half way to the upstream
+// Angles at which the nodes lie on the undeformed spheroid: where the rear folds, from the equator to half way to the upstream
 // pole, up to 1.6 times as dense, at the front up to 1.7 times less dense. The angle is a smooth odd function of
 // zeta, so that shapes keep their parities and the basis its exponential convergence.
-void cluster_nodes(Membrane &membrane) {
-  const Eigen::Index n = membrane.basis.size();
-  const Eigen::ArrayXd zeta = membrane.basis.nodes;
-  const Eigen::ArrayXd angle = zeta + 0.2 * (2 * zeta).sin() - 0.3 * zeta.sin();
-  const double half_length = -membrane.reference[0] / std::cos(zeta[0]);
-  const double radius = membrane.reference[n] / std::sin(zeta[0]);
-  membrane.reference << -half_length * angle.cos(), radius * angle.sin();
-  const MembraneState undeformed = membrane_state(membrane, membrane.sampling, membrane.reference);
-  membrane.reference_shape = {undeformed.r, undeformed.arc, undeformed.curvature_meridional,
-                              undeformed.curvature_azimuthal};
+Vector clustered(const Vector &zeta) {
+  return zeta.array() + 0.2 * (2 * zeta.array()).sin() - 0.3 * zeta.array().sin();
 }
 
 Vector start_position(const Membrane &membrane, double start_x) {
@@ -67,13 +58,10 @@ void require_capsule(const std::optional<Pore> &pore, const Vector &position) {
 
 Dynamics standard_dynamics(const Case &physics) {
   const Resolution resolution = choose_resolution(physics);
-  const MeridianBasis basis = spectral_basis(resolution.membrane_nodes);
-  const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
   Dynamics dynamics;
-  dynamics.membrane = make_membrane(physics, basis, energy_rule.nodes, energy_rule.weights);
-  cluster_nodes(dynamics.membrane);
+  dynamics.membrane = standard_membrane(physics, resolution);
   dynamics.start = start_position(dynamics.membrane, physics.capsule.start_x);
-  const auto system = std::make_shared<const FlowSystem>(physics, basis, resolution.flow);
+  const auto system = std::make_shared<const FlowSystem>(physics, dynamics.membrane.basis, resolution.flow);
   const auto membrane = std::make_shared<const Membrane>(dynamics.membrane);
   std::optional<Pore> pore;
   if (physics.pore.shape != PoreShape::none)
@@ -116,6 +104,15 @@ Dynamics paper_dynamics(const Case &physics) {
 }
 
 } // namespace
+
+Membrane standard_membrane(const Case &physics, const Resolution &resolution) {
+  const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
+  Membrane membrane = make_membrane(physics, spectral_basis(resolution.membrane_nodes), energy_rule.nodes,
+                                    energy_rule.weights);
+  membrane.node_angle = clustered(membrane.basis.nodes);
+  take_physics(physics, membrane);
+  return membrane;
+}
 
 Dynamics make_dynamics(const Case &physics) {
   return physics.numerics == Numerics::paper ? paper_dynamics(physics) : standard_dynamics(physics);

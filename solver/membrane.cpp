@@ -202,6 +202,7 @@ Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Ve
   Membrane membrane{.law = {},
                     .bending_ratio = 0,
                     .basis = basis,
+                    .node_angle = basis.nodes,
                     .reference = Vector(2 * basis.size()),
                     .sampling = sample(basis, zeta, weights),
                     .reference_shape = {},
@@ -213,10 +214,10 @@ Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Ve
 void take_physics(const Case &physics, Membrane &membrane) {
   const double radius = physics.capsule.radius / std::cbrt(physics.capsule.aspect_ratio); // B
   const double half_length = radius * physics.capsule.aspect_ratio;                       // A
-  const auto zeta = membrane.basis.nodes.array();
+  const auto angle = membrane.node_angle.array();
   membrane.law = {physics.membrane.law, physics.membrane.dilatation};
   membrane.bending_ratio = physics.membrane.bending_ratio;
-  membrane.reference << -half_length * zeta.cos(), radius * zeta.sin();
+  membrane.reference << -half_length * angle.cos(), radius * angle.sin();
   membrane.reference_shape = reference_shape_at(membrane.sampling, membrane.reference);
 }
 

@@ -28,14 +28,15 @@ struct Membrane {
   MembraneLaw law;
   double bending_ratio = 0; // delta
   MeridianBasis basis;
+  Vector node_angle;              // where the nodes lie on the undeformed spheroid
   Vector reference;               // undeformed position of the nodes, 2N, centred at x = 0
   Sampling sampling;              // where the energy is integrated: no point at a pole
   ReferenceShape reference_shape; // at the sampling's points
   Sampling at_nodes;              // the nodes themselves, with the basis' weights
 };
 
-// A spheroid of semi-axes A (axial) and B with (A B^2)^(1/3) = capsule.radius; node j at X = -A cos(zeta_j),
-// R = B sin(zeta_j).
+// A spheroid of semi-axes A (axial) and B with (A B^2)^(1/3) = capsule.radius; node j at X = -A cos(angle_j),
+// R = B sin(angle_j), with angle_j = zeta_j until another node_angle is set and take_physics called.
 Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Vector &zeta,
                        const Vector &weights);
 
