@@ -438,20 +438,20 @@ FlowState FlowSystem::flow(const Interaction &shape, const Vector &load, Memory 
 
 Vector FlowSystem::outer_velocity(const Targets &points, const Interaction &shape, const Vector &load,
                                   const FlowState &state) const {
-  const Vector strength = stokeslet_factor / capillary_number_ * at_panels(load);
   RowMatrix layer;
-  assemble_layer(Layer::single, points, shape.membrane, nullptr, resolution_.near_tolerance, layer);
-  Vector velocity = empty_velocity(points) + layer * strength;
-  Vector at_wall = has_wall() ? Vector(shape.single_bm * strength) : Vector();
-  if (viscosity_ratio_ != 1) {
-    const Vector density = (viscosity_ratio_ - 1) * at_panels(state.velocity);
-    assemble_layer(Layer::dbl, points, shape.membrane, nullptr, resolution_.near_tolerance, layer);
-    velocity += layer * density;
-    if (has_wall())
-      at_wall += shape.double_bm * density;
+  assemble_layer(Layer::single, points, shape.membrane, nullptr, near_, layer);
+  Vector velocity =
+      empty_velocity(points) + layer * (stokeslet_factor / capillary_number_ * at_panels(load)).eval();
+  if (has_inner_flow()) {
+    assemble_layer(Layer::dbl, points, shape.membrane, nullptr, near_, layer);
+    velocity += (viscosity_ratio_ - 1) * (layer * at_panels(state.velocity));
   }
-  if (has_wall())
-    velocity -= wall_response(points, false) * (wall_inverse_ * at_wall);
+  if (has_wall()) {
+    Vector at_wall = stokeslet_factor / capillary_number_ * single_at_wall(shape, load);
+    if (has_inner_flow())
+      at_wall += (viscosity_ratio_ - 1) * double_at_wall(shape, state.velocity);
+    velocity -= wall_response(points) * (wall_inverse_ * at_wall).cwiseQuotient(force_);
+  }
   return velocity;
 }
 

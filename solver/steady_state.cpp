@@ -208,6 +208,8 @@ private:
       try {
         branch.advance();
       } catch (const NumericsFailure &failure) {
+        if (!turned_at.empty() && !can_refine())
+          break; // behind the fold, as far as this mesh goes
         throw NumericsFailure(failure.kind, fmt::format("{} beyond {}", failure.what(), leg.text(reached_)),
                               failure.advice);
       }
