@@ -5,6 +5,7 @@
 #include "pore.hpp"
 #include "quadrature.hpp"
 #include "resolution.hpp"
+#include <algorithm>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -12,12 +13,24 @@
 namespace capsule {
 namespace {
 
-// Angles at which the nodes lie on the undeformed spheroid: up to 1.25 times as dense at the equator and towards
-// the rear, which folds, at the front up to 1.35 times less dense; not more, because the front of a neo-Hookean
-// capsule that runs away needs its nodes. The angle is a smooth odd function of zeta, so that shapes keep their
-// parities and the basis its exponential convergence.
-Vector clustered(const Vector &zeta) {
-  return zeta.array() + 0.1 * (2 * zeta.array()).sin() - 0.15 * zeta.array().sin();
+// Angles at which the nodes lie on the undeformed spheroid. The rear of a flat one folds: there, from the equator
+// to half way to the upstream pole, its nodes are denser (at A/B = 0.28 up to 1.6 times), and at the front less dense
+// (1.7 times). A sphere's nodes stay where they are, because the front of a neo-Hookean one may stretch without bound.
+// The angle is a smooth odd function of zeta, so that shapes keep their parities and the basis its exponential
+// convergence.
+Vector clustered(const Vector &zeta, double aspect_ratio) {
+  const double flat = std::max(0.0, 1 - aspect_ratio);
+  return zeta.array() + flat * (0.28 * (2 * zeta.array()).sin() - 0.42 * zeta.array().sin());
+}
+
+// The membrane of the standard preset.
+Membrane standard_membrane(const Case &physics, const Resolution &resolution) {
+  const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
+  Membrane membrane = make_membrane(physics, spectral_basis(resolution.membrane_nodes), energy_rule.nodes,
+                                    energy_rule.weights);
+  membrane.node_angle = clustered(membrane.basis.nodes, physics.capsule.aspect_ratio);
+  take_physics(physics, membrane);
+  return membrane;
 }
 
 Vector start_position(const Membrane &membrane, double start_x) {
@@ -105,15 +118,6 @@ Dynamics paper_dynamics(const Case &physics) {
 }
 
 } // namespace
-
-Membrane standard_membrane(const Case &physics, const Resolution &resolution) {
-  const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
-  Membrane membrane = make_membrane(physics, spectral_basis(resolution.membrane_nodes), energy_rule.nodes,
-                                    energy_rule.weights);
-  membrane.node_angle = clustered(membrane.basis.nodes);
-  take_physics(physics, membrane);
-  return membrane;
-}
 
 Dynamics make_dynamics(const Case &physics) {
   return physics.numerics == Numerics::paper ? paper_dynamics(physics) : standard_dynamics(physics);

@@ -23,10 +23,6 @@ struct Dynamics {
   std::function<void()> forget;
 };
 
-struct Resolution;
-// The membrane of the standard preset, its nodes clustered where the rear folds.
-Membrane standard_membrane(const Case &physics, const Resolution &resolution);
-
 // Builds what stays fixed: reference shape, matrices, the wall's factors and the empty pore's flow.
 Dynamics make_dynamics(const Case &physics);
 

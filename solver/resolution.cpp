@@ -16,7 +16,8 @@ Resolution choose_resolution(const Case &physics) {
   resolution.membrane_nodes =
       physics.mesh.membrane > 0
           ? physics.mesh.membrane
-          : static_cast<int>(std::lround(18 * std::max(digits, 3.5) * std::pow(flatness, 0.72)));
+          : static_cast<int>(std::lround((20 - 5.5 * std::max(0.0, 1 - aspect)) * std::max(digits, 3.5) *
+                                         std::pow(flatness, 0.72)));
   const int nodes = resolution.membrane_nodes;
   resolution.energy_points = nodes * 5 / 4 + 8;
   resolution.time_tolerance =
