@@ -350,15 +350,36 @@ std::map<std::string, double> differences(const std::vector<SeriesRow> &fine,
   return error;
 }
 
+// The march that is asked for, on the mesh that it ended on. Wrinkles on a mesh that was chosen from the accuracy may be
+// the mesh's own: then the march begins again on a finer one, once, and what it shows there is believed.
+struct Lead {
+  Case physics;
+  Outcome outcome;
+};
+Lead lead(const Case &physics, const Checkpoint &from, const Control &control) {
+  const bool can_refine = physics.mesh.membrane == 0 && physics.time.scheme == Scheme::bdf;
+  Case finer = physics;
+  finer.mesh.membrane = 3 * choose_resolution(physics).membrane_nodes / 2;
+  const bool goes_on_finer = can_refine && from.position.size() == 2 * finer.mesh.membrane;
+  if (!goes_on_finer) {
+    Outcome outcome = March(physics, from, control, Part::leading).run();
+    if (!can_refine || outcome.failure != "wrinkled")
+      return {physics, std::move(outcome)};
+  }
+  Outcome outcome = March(finer, goes_on_finer ? from : Checkpoint{}, control, Part::leading).run();
+  outcome.membrane_nodes = finer.mesh.membrane;
+  return {finer, std::move(outcome)};
+}
+
 } // namespace
 
 Outcome march(const Case &physics, const Checkpoint &from, const Control &control) {
-  Outcome outcome = March(physics, from, control, Part::leading).run();
+  auto [marched, outcome] = lead(physics, from, control);
   if (outcome.status != Status::reached || physics.numerics == Numerics::paper)
     return outcome;
   Control quiet;
   quiet.interrupted = control.interrupted;
-  const Case coarse = companion(physics, outcome.last.series);
+  const Case coarse = companion(marched, outcome.last.series);
   const Outcome second = March(coarse, {}, quiet, Part::companion).run();
   if (second.status == Status::interrupted)
     outcome.status = Status::interrupted;

@@ -20,7 +20,7 @@ cp "$source/tables/published.csv" tables
 cp "$source/figures/style.gp" figures
 ln -s "$source/cmake" cmake
 "$capsule" new my-case --like "$source/cases/fig07-viscosity-sphere"
-sed -i 's/^"flow.viscosity_ratio" = .*/"flow.viscosity_ratio" = [0.5, 1]/; s/^inherit.*/&\naccuracy = 1e-2/' cases/my-case/case.toml
+sed -i 's/^"flow.viscosity_ratio" = .*/"flow.viscosity_ratio" = [0.5, 1]/; s/^accuracy = .*/accuracy = 1e-2/' cases/my-case/case.toml
 
 cat >CMakeLists.txt <<CMAKE
 cmake_minimum_required(VERSION 3.25)

@@ -22,8 +22,8 @@ TOML
 "$capsule" run case.toml --out two --jobs 2
 
 for other in again two; do
-  for run in first/*; do
-    for file in "$run"/*; do
+  for run in first/*/; do
+    for file in "$run"*; do
       name=${file#first/}
       case $name in
       */run.json) continue ;; # when, where and how long
