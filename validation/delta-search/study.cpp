@@ -7,6 +7,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
+#include <set>
 
 using namespace capsule;
 
@@ -19,6 +21,7 @@ const std::vector<std::string> cases{"table1-mesh",
                                      "fig10-viscosity-ellipsoid",
                                      "fig12-law-sphere",
                                      "fig16-law-ellipsoid",
+                                     "fig17-stretch",
                                      "fig19-runaway"};
 const std::vector<double> decades{1e-6, 1e-5, 1e-4, 1e-3};
 constexpr double accuracy = 1e-3;
@@ -26,7 +29,8 @@ constexpr double refinement = 1.5;
 
 // A run of a case with another stiffness and mesh.
 struct Trial {
-  std::string of; // the case's name and the run's
+  std::string of;       // the case's name and the run's
+  std::string identity; // of the physics without the stiffness
   double stiffness;
   bool fine;
   std::size_t index; // of the computed run
@@ -55,21 +59,25 @@ public:
 
   const std::vector<Trial> &trials() const { return trials_; }
   const StudyRun &result(const Trial &trial) const { return runs_.at(trial.index); }
-  const Case &physics(const Trial &trial) const { return inputs_.at(trial.index).physics; }
+  // Whether a row of tables/published.csv speaks of the trial's run, whatever its stiffness.
+  bool is_of(const Trial &trial, const Expectation &row) const {
+    return cases_.at(trial.identity).contains(row.case_name) &&
+           Selector(row.run).selects(inputs_.at(trial.index).physics);
+  }
 
 private:
   void add(const std::string &case_name, const RunInput &run) {
     const Case physics = stripped(run.physics);
     const std::string of = case_name + (run.name.empty() ? "" : " " + run.name);
     const std::string identity = run_identity(physics);
-    if (std::ranges::find(known_, identity) != known_.end())
+    cases_[identity].insert(case_name);
+    if (std::ranges::find(trials_, identity, &Trial::identity) != trials_.end())
       return;
-    known_.push_back(identity);
     const bool whole = physics.flow.viscosity_ratio == 1; // the steady state is the same for all others
     for (const double stiffness : decades)
       for (const bool fine : {false, true})
         if (whole || (!fine && stiffness < 1e-3))
-          trials_.push_back({of, stiffness, fine, input_of(physics, stiffness, fine)});
+          trials_.push_back({of, identity, stiffness, fine, input_of(physics, stiffness, fine)});
   }
 
   std::size_t input_of(Case physics, double stiffness, bool fine) {
@@ -80,7 +88,7 @@ private:
     return inputs_.size() - 1;
   }
 
-  std::vector<std::string> known_;
+  std::map<std::string, std::set<std::string>> cases_; // that have a run of this identity
   std::vector<Trial> trials_;
   std::vector<RunInput> inputs_;
   std::vector<StudyRun> runs_;
@@ -155,11 +163,12 @@ void write_smallest(const Search &search, const std::string &directory) {
   table.write(directory + "/smallest.csv");
 }
 
-// Each published number that a run's summary has, at every stiffness; empty where there is none.
+// Each published number that a run's summary has, at every stiffness with which the membrane passes.
 void write_sensitivity(const Search &search, const std::string &directory) {
   Table table(fmt::format("id,quantity,published,{:g}", fmt::join(decades, ",")));
   for (const Expectation &row : read_expectations("tables/published.csv")) {
-    if (row.kind != "number" || row.form != Expectation::Form::value)
+    const bool of_the_paper = row.kind == "number" || row.claim.empty();
+    if (!of_the_paper || row.form != Expectation::Form::value)
       continue;
     std::vector<std::string> cells(3 + decades.size());
     cells[0] = row.id;
@@ -168,9 +177,7 @@ void write_sensitivity(const Search &search, const std::string &directory) {
     bool any = false;
     for (const Trial &trial : search.trials()) {
       const double value = end_of(search.result(trial), row.quantity);
-      const bool of_this_row = trial.of.substr(0, trial.of.find(' ')) == row.case_name &&
-                               Selector(row.run).selects(search.physics(trial));
-      if (trial.fine || !of_this_row || !std::isfinite(value))
+      if (trial.fine || !passes(search.result(trial)) || !search.is_of(trial, row) || !std::isfinite(value))
         continue;
       const auto column = std::ranges::find(decades, trial.stiffness) - decades.begin();
       cells[3 + static_cast<std::size_t>(column)] = fmt::format("{:.6g}", value);
