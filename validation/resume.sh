@@ -7,6 +7,7 @@ place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 cd "$place"
 cat >case.toml <<'TOML'
+accuracy = 1e-6 # long enough to be interrupted
 capsule.radius = 0.9
 membrane.law = "skalak"
 membrane.dilatation = 0
