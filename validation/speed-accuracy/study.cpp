@@ -193,7 +193,9 @@ std::vector<Point> paper_points(const Scene &scene) {
   std::vector<Point> points;
   std::vector<fs::path> directories;
   for (const fs::path &parent : scene.paper)
-    directories.insert(directories.end(), fs::directory_iterator(parent), {});
+    std::copy_if(
+        fs::directory_iterator(parent), {}, std::back_inserter(directories),
+        [](const fs::path &entry) { return fs::is_directory(entry); }); // beside them: the list of runs
   for (const fs::path &directory : directories) {
     const Case physics = read_case(directory / "resolved.toml").runs.front().physics;
     const StudyRun run = read_run(directory);
