@@ -15,6 +15,7 @@ namespace {
 constexpr double first_step = 0.02;
 constexpr double largest_step = 0.04;
 constexpr double accuracy_of_folds = 1e-6;
+constexpr int most_nodes_of_a_branch = 200;
 constexpr int most_points = 500;
 constexpr double runaway_stretch = 4; // as in a march
 
@@ -82,16 +83,15 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
     SteadyState state = start.state;
     outcome.branch.push_back(record.look_at(state, part, true));
     const Path cases = [&](double at) { return path.at(at); };
-    auto branch = std::make_unique<Branch>(*state.system, cases, BranchPoint{state.unknowns, 0}, 1,
-                                           first_step, largest_step);
+    auto branch = std::make_unique<Branch>(*state.system, cases, BranchPoint{state.unknowns, 0},
+                                           Branch::upwards(*state.system), first_step, largest_step);
     const auto note = [&](const BranchPoint &point, bool profile) {
       state.unknowns = point.unknowns;
       return record.look_at(state, point.parameter, profile);
     };
     for (;;) {
-      const double slope = branch->slope();
       branch->advance();
-      if (slope * branch->slope() < 0)
+      if (branch->turned())
         outcome.folds.push_back(note(branch->fold(), true));
       const BranchPoint point = branch->point();
       part = point.parameter;
@@ -110,6 +110,18 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
         outcome.message = fmt::format("stretched beyond {} at {}; the branch is not followed further",
                                       runaway_stretch, path.text(part));
         break;
+      }
+      const int nodes = finer_mesh(static_cast<int>(state.system->nodes()));
+      if (branch->wants_a_finer_mesh() && physics.mesh.membrane == 0 && nodes <= most_nodes_of_a_branch) {
+        const SteadyState finer = on_mesh(path.at(part), nodes, state);
+        const Vector &tangent = branch->tangent();
+        Vector direction(2 * nodes + 3);
+        direction << moved_to(finer.system->membrane().basis, state.system->membrane().basis,
+                              tangent.head(tangent.size() - 1)),
+            tangent[tangent.size() - 1];
+        state = finer;
+        branch = std::make_unique<Branch>(*state.system, cases, BranchPoint{state.unknowns, part}, direction,
+                                          first_step, largest_step);
       }
       if (std::ssize(outcome.branch) > most_points)
         throw NumericsFailure("step",

@@ -6,10 +6,12 @@
 namespace capsule {
 namespace {
 
-constexpr int most_iterations = 10;
+constexpr int most_iterations = 25;
 constexpr double correction_tolerance = 1e-4; // of points on a branch: the next one would be its square
 constexpr double position_tolerance = 1e-9;
-constexpr double smallest_step = 1e-5;
+constexpr double smallest_step = 1e-6;
+constexpr int many_corrections = 9;
+constexpr double largest_slack = 5e-7;
 
 [[noreturn]] void no_convergence() {
   throw NumericsFailure("unresolved", "Newton's method does not converge",
@@ -27,13 +29,13 @@ Vector solve_steady(SteadySystem &system, Vector guess, double tolerance) {
   constexpr double farthest = 3; // that a guess can be from a solution
   const Eigen::Index n2 = 2 * system.nodes();
   double before = 0;
-  for (int iteration = 0; iteration < 2 * most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
     system.fit_tube(guess);
     const SteadySystem::Linearisation linear = system.linearise(guess);
     const Vector change = linear.jacobian.partialPivLu().solve(-linear.residual);
     const double step = system.admissible_step(guess, change);
     const double length = change.head(n2).cwiseAbs().maxCoeff();
-    if (!(length < farthest) || (iteration > most_iterations && !contracts(iteration, before, length)))
+    if (!(length < farthest) || (iteration > 10 && !contracts(iteration, before, length)))
       no_convergence();
     guess += step * change;
     if (step == 1 && length < tolerance)
@@ -43,22 +45,43 @@ Vector solve_steady(SteadySystem &system, Vector guess, double tolerance) {
   no_convergence();
 }
 
-Branch::Branch(SteadySystem &system, Path path, BranchPoint start, int towards, double first_step,
+Branch::Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction, double first_step,
                double largest_step)
     : system_(&system), path_(std::move(path)), point_(std::move(start)), step_(first_step),
       largest_step_(largest_step) {
   system_->take(path_(point_.parameter));
   system_->fit_tube(point_.unknowns);
-  const Vector slope = parameter_slope(point_);
-  tangent_.resize(slope.size() + 1);
-  tangent_ << -system_->linearise(point_.unknowns).jacobian.partialPivLu().solve(slope), 1;
-  tangent_ *= towards / std::sqrt(weighted(tangent_, tangent_));
+  const Eigen::Index m = point_.unknowns.size();
+  Matrix bordered(m + 1, m + 1);
+  bordered << system_->linearise(point_.unknowns).jacobian, parameter_slope(point_), direction.transpose();
+  tangent_ = bordered.partialPivLu().solve(Vector::Unit(m + 1, m));
+  tangent_ /= std::sqrt(weighted(tangent_, tangent_));
 }
 
-// Mean over the nodes of the product of displacements, and the parameters' product.
+Vector Branch::upwards(const SteadySystem &system) {
+  const Eigen::Index m = 2 * system.nodes() + 2;
+  return Vector::Unit(m + 1, m);
+}
+
+// Weighted mean over the nodes of the product of displacements, and the parameters' product.
 double Branch::weighted(const Vector &a, const Vector &b) const {
   const Eigen::Index n = system_->nodes();
-  return a.head(2 * n).dot(b.head(2 * n)) / static_cast<double>(n) + a[a.size() - 1] * b[b.size() - 1];
+  return weight_ / static_cast<double>(n) * a.head(2 * n).dot(b.head(2 * n)) +
+         a[a.size() - 1] * b[b.size() - 1];
+}
+
+// Where the parameter alone would count, displacements get the weight to count as much; it goes back where they
+// alone count.
+void Branch::balance() {
+  constexpr double largest_weight = 1e5;
+  const double share = std::pow(tangent_[tangent_.size() - 1], 2); // the tangent has length one
+  if (share > 0.8)
+    weight_ = std::min(weight_ * share / std::max(1 - share, 1e-12), largest_weight);
+  else if (share < 0.1)
+    weight_ = std::max(weight_ / 2, 1.0);
+  const double stretched = std::sqrt(weighted(tangent_, tangent_));
+  tangent_ /= stretched;
+  step_ = std::min(step_ * stretched, largest_step_); // the same way as before, if allowed
 }
 
 // d residual/d parameter by central differences: the residual is smooth in it, the error about 1e-9.
@@ -74,18 +97,19 @@ Vector Branch::parameter_slope(const BranchPoint &at) const {
 
 Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
                                   double tolerance) const {
+  constexpr double little = 1e-3; // a correction after which the parameter's column may stay
   const Eigen::Index m = from.unknowns.size();
   const Eigen::Index n = system_->nodes();
   Vector row = Vector::Zero(m + 1);
-  row.head(2 * n) = tangent.head(2 * n) / static_cast<double>(n);
+  row.head(2 * n) = weight_ / static_cast<double>(n) * tangent.head(2 * n);
   row[m] = tangent[m];
   BranchPoint now{from.unknowns + step * tangent.head(m), from.parameter + step * tangent[m]};
-  Vector slope; // it changes little from one correction to the next
-  double before = 0;
+  Vector slope;
+  double before = 1;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     system_->take(path_(now.parameter));
     system_->fit_tube(now.unknowns);
-    if (iteration == 0)
+    if (before > little)
       slope = parameter_slope(now);
     const SteadySystem::Linearisation linear = system_->linearise(now.unknowns);
     Matrix bordered(m + 1, m + 1);
@@ -102,7 +126,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     before = length;
     now.unknowns += change.head(m);
     now.parameter += change[m];
-    if (length < tolerance) {
+    if (length < tolerance * std::sqrt(weight_)) {
       right.setZero();
       right[m] = 1;
       Vector direction = factors.solve(right);
@@ -115,18 +139,21 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
 
 void Branch::advance() {
   constexpr double straight = 0.85; // cosine between neighbouring tangents
+  balance();
   for (;;) {
     try {
       const Corrected next = correct(point_, tangent_, step_, correction_tolerance);
       if (weighted(next.tangent, tangent_) > straight) {
+        oldest_ = before_;
         before_ = point_;
         tangent_before_ = tangent_;
-        last_step_ = step_;
+        ++points_;
         point_ = next.point;
         tangent_ = next.tangent;
-        if (next.iterations <= 4)
+        corrections_ = next.iterations;
+        if (corrections_ <= 5)
           step_ = std::min(1.7 * step_, largest_step_);
-        else if (next.iterations >= 6)
+        else if (corrections_ >= many_corrections)
           step_ /= 1.5;
         return;
       }
@@ -147,16 +174,44 @@ BranchPoint Branch::at_parameter(double parameter) const {
   return {solve_steady(*system_, guess, position_tolerance), parameter};
 }
 
+bool Branch::wants_a_finer_mesh() const {
+  return corrections_ >= many_corrections ||
+         std::abs(point_.unknowns[point_.unknowns.size() - 1]) > largest_slack;
+}
+
+bool Branch::turned() const {
+  return points_ > 2 && (point_.parameter - before_.parameter) * (before_.parameter - oldest_.parameter) < 0;
+}
+
+double Branch::along_tangent_before(const BranchPoint &at) const {
+  Vector way(tangent_before_.size());
+  way << at.unknowns - before_.unknowns, at.parameter - before_.parameter;
+  return weighted(way, tangent_before_);
+}
+
+// Where the parameter has no slope along the arc: by the tangents, or, if they do not see it because the mesh
+// resolves some end of the shape poorly, by differences of the parameter itself.
 BranchPoint Branch::fold() const {
-  const auto slope_after = [&](double step) {
-    const Corrected at = correct(before_, tangent_before_, step, position_tolerance);
-    return at.tangent[at.tangent.size() - 1];
+  const double first = along_tangent_before(oldest_);
+  const double last = along_tangent_before(point_);
+  const double h = 0.03 * std::min(-first, last);
+  const auto at = [&](double step) { return correct(before_, tangent_before_, step, position_tolerance); };
+  const auto by_tangents = [&](double step) { return at(step).tangent[tangent_.size() - 1]; };
+  const auto by_differences = [&](double step) {
+    return at(step + h).point.parameter - at(step - h).point.parameter;
   };
-  std::uintmax_t evaluations = 30;
-  const auto found = boost::math::tools::toms748_solve(
-      slope_after, 0.0, last_step_, tangent_before_[tangent_before_.size() - 1], slope(),
-      boost::math::tools::eps_tolerance<double>(30), evaluations);
-  return correct(before_, tangent_before_, (found.first + found.second) / 2, position_tolerance).point;
+  const auto solve = [&](const auto &slope, double slope_first, double slope_last) {
+    std::uintmax_t evaluations = 30;
+    const auto found =
+        boost::math::tools::toms748_solve(slope, first + h, last - h, slope_first, slope_last,
+                                          boost::math::tools::eps_tolerance<double>(30), evaluations);
+    return at((found.first + found.second) / 2).point;
+  };
+  const double tangent_first = by_tangents(first + h);
+  const double tangent_last = by_tangents(last - h);
+  return tangent_first * tangent_last < 0
+             ? solve(by_tangents, tangent_first, tangent_last)
+             : solve(by_differences, by_differences(first + h), by_differences(last - h));
 }
 
 } // namespace capsule

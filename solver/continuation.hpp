@@ -1,8 +1,8 @@
 #pragma once
 // Branches of steady states: Newton's method at given parameters, and pseudo-arclength continuation along one
-// parameter, through folds. A point is (unknowns of steady_system.hpp, parameter); lengths along a branch
-// weigh the root mean square displacement of the nodes and the parameter alike, so the parameter should be
-// scaled to go through about one.
+// parameter, through folds. A point is (unknowns of steady_system.hpp, parameter), and the parameter should be
+// scaled to go through about one. Lengths along a branch add the root mean square displacement of the nodes to
+// it, with a weight that makes both count: a shell that buckles turns a branch within displacements of 1e-3.
 #include "steady_system.hpp"
 #include <functional>
 
@@ -22,20 +22,25 @@ Vector solve_steady(SteadySystem &system, Vector guess, double tolerance);
 
 class Branch {
 public:
-  // `start` is a steady state; the branch begins in the direction in which the parameter grows (towards +1)
-  // or falls (-1).
-  Branch(SteadySystem &system, Path path, BranchPoint start, int towards, double first_step,
+  // `start` is a steady state; the branch begins on the side to which `direction` points: changes of the
+  // unknowns, then of the parameter.
+  Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction, double first_step,
          double largest_step);
+  // ... to where the parameter grows.
+  static Vector upwards(const SteadySystem &system);
 
   const BranchPoint &point() const { return point_; }
-  // d parameter/d arclength: changes its sign at a fold.
-  double slope() const { return tangent_[tangent_.size() - 1]; }
+  const Vector &tangent() const { return tangent_; }
 
   // To the next point. Throws NumericsFailure when the smallest step fails; the branch stays where it was.
   void advance();
+  // Whether the last point is poorly resolved: its slack, which is the error of discretisation, is large, or
+  // corrections converged slowly, because the exact derivative is not that of the discrete equations any more.
+  bool wants_a_finer_mesh() const;
   // The steady state between the last two points at a parameter between theirs.
   BranchPoint at_parameter(double parameter) const;
-  // After an advance in which the slope changed its sign: the fold between.
+  // Whether the parameter turned back among the last three points, and the fold there.
+  bool turned() const;
   BranchPoint fold() const;
 
 private:
@@ -47,12 +52,16 @@ private:
   Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance) const;
   Vector parameter_slope(const BranchPoint &at) const;
   double weighted(const Vector &a, const Vector &b) const;
+  double along_tangent_before(const BranchPoint &at) const;
+  void balance();
 
   SteadySystem *system_;
   Path path_;
-  BranchPoint point_, before_;
+  BranchPoint point_, before_, oldest_;
   Vector tangent_, tangent_before_;
-  double step_, largest_step_, last_step_ = 0;
+  double step_, largest_step_;
+  int points_ = 1, corrections_ = 0;
+  double weight_ = 1; // of displacements
 };
 
 } // namespace capsule

@@ -61,15 +61,6 @@ Resolution resolution_of(const Case &physics, int nodes) {
   return resolution;
 }
 
-Vector moved_to(const MeridianBasis &to, const MeridianBasis &from, const Vector &unknowns) {
-  const Eigen::Index n = from.size();
-  const Eigen::Index m = to.size();
-  Vector moved(2 * m + 2);
-  moved << from.even(to.nodes, 0) * unknowns.head(n), from.odd(to.nodes, 0) * unknowns.segment(n, n),
-      unknowns.tail(2);
-  return moved;
-}
-
 } // namespace
 
 KeyPath::KeyPath(std::string key, const Case &from, double to)
@@ -95,6 +86,15 @@ std::string KeyPath::text(double part) const {
   return fmt::format("{} = {:.6g}", key_, value(part));
 }
 
+Vector moved_to(const MeridianBasis &to, const MeridianBasis &from, const Vector &unknowns) {
+  const Eigen::Index n = from.size();
+  const Eigen::Index m = to.size();
+  Vector moved(2 * m + 2);
+  moved << from.even(to.nodes, 0) * unknowns.head(n), from.odd(to.nodes, 0) * unknowns.segment(n, n),
+      unknowns.tail(2);
+  return moved;
+}
+
 int finer_mesh(int nodes) {
   return static_cast<int>(std::ceil(mesh_growth * nodes));
 }
@@ -114,8 +114,8 @@ void follow(const KeyPath &path, SteadyState &state) {
   constexpr double first_step = 0.1, largest_step = 0.5;
   constexpr int most_steps = 60;
   Branch branch(
-      *state.system, [&](double part) { return path.at(part); }, {state.unknowns, 0}, 1, first_step,
-      largest_step);
+      *state.system, [&](double part) { return path.at(part); }, {state.unknowns, 0},
+      Branch::upwards(*state.system), first_step, largest_step);
   for (int step = 0; branch.point().parameter < 1; ++step) {
     if (step == most_steps || branch.point().parameter < 0)
       throw NumericsFailure("unresolved", fmt::format("no way to {}", path.text(1)),
@@ -197,14 +197,13 @@ private:
     constexpr double first_step = 0.2, largest_step = 0.7;
     constexpr int most_steps = 200;
     Branch branch(
-        *state_.system, [&](double part) { return leg.at(part); }, {state_.unknowns, from}, 1, first_step,
-        largest_step);
+        *state_.system, [&](double part) { return leg.at(part); }, {state_.unknowns, from},
+        Branch::upwards(*state_.system), first_step, largest_step);
     std::string turned_at;
     for (int step = 0; step < most_steps; ++step) {
       listen(control_);
       state_.unknowns = branch.point().unknowns;
       reached_ = branch.point().parameter;
-      const double slope = branch.slope();
       try {
         branch.advance();
       } catch (const NumericsFailure &failure) {
@@ -214,11 +213,11 @@ private:
                               failure.advice);
       }
       const BranchPoint &now = branch.point();
-      if (slope > 0 && branch.slope() < 0 && turned_at.empty())
+      if (branch.turned() && turned_at.empty())
         turned_at = leg.text(branch.fold().parameter);
       if (now.parameter < 0 || (!turned_at.empty() && largest_stretch_of(now) > largest_stretch))
         break;
-      if (std::abs(now.unknowns[now.unknowns.size() - 1]) > largest_slack && can_refine())
+      if (branch.wants_a_finer_mesh() && can_refine())
         return reached_;
       if (now.parameter >= 1) {
         state_.unknowns = branch.at_parameter(1).unknowns;

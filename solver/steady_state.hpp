@@ -57,10 +57,10 @@ SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
 
 // The same state on a mesh of so many nodes.
 SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state);
+// Unknowns, or changes of them, on other nodes.
+Vector moved_to(const MeridianBasis &to, const MeridianBasis &from, const Vector &unknowns);
 int finer_mesh(int nodes);
 constexpr int most_nodes = 420;
-// The slack of the equations is the error of discretisation: beyond this a way goes on on a finer mesh.
-constexpr double largest_slack = 5e-7;
 
 // Thrown where the caller asks to stop.
 struct Interrupted {};
