@@ -8,14 +8,14 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <memory>
 
 namespace capsule {
 namespace {
 
-constexpr double first_step = 0.02;
-constexpr double largest_step = 0.04;
+constexpr Branch::Steps steps{.first = 0.02, .largest = 0.04, .tolerance = 1e-7};
 constexpr double accuracy_of_folds = 1e-6;
-constexpr int most_nodes_of_a_branch = 200;
+constexpr int most_nodes_of_a_branch = 300;
 constexpr int most_points = 500;
 constexpr double runaway_stretch = 4; // as in a march
 
@@ -61,9 +61,105 @@ public:
   Outcome outcome;
 
 private:
-  const KeyPath &path_;
+  KeyPath path_;
   double viscosity_ratio_;
   const Control &control_;
+};
+
+// One branch from the case's own value of the key on.
+class Walk {
+public:
+  Walk(const Case &physics, const KeyPath &path, const Control &control)
+      : path_(path), record_(path, physics.flow.viscosity_ratio, control),
+        may_refine_(physics.mesh.membrane == 0) {}
+
+  void begin(const RefinedState &start) {
+    outcome().error_estimate = start.error_estimate;
+    state_ = start.state;
+    outcome().branch.push_back(record_.look_at(state_, 0, true));
+    branch_ = std::make_unique<Branch>(*state_.system, cases(), BranchPoint{state_.unknowns, 0},
+                                       Branch::upwards(*state_.system), steps);
+  }
+
+  // One point further; true at the end.
+  bool go_on() {
+    branch_->advance();
+    if (branch_->turned() && !branch_->tangent_has_turned() &&
+        refine_mesh(branch_->point_before(), branch_->tangent_before()))
+      return false;
+    if (branch_->turned())
+      outcome().folds.push_back(look_at(branch_->fold(), true));
+    part_ = branch_->point().parameter;
+    if (part_ >= 1 || part_ <= 0) {
+      outcome().branch.push_back(look_at(branch_->at_parameter(part_ >= 1 ? 1 : 0), true));
+      outcome().status = Status::reached;
+      if (part_ <= 0)
+        outcome().message = fmt::format("the branch turns back and does not reach {}", path_.text(1));
+      return true;
+    }
+    const bool runs_away = largest_stretch() > runaway_stretch;
+    outcome().branch.push_back(look_at(branch_->point(), runs_away));
+    if (runs_away) {
+      outcome().status = Status::unbounded;
+      outcome().message = fmt::format("stretched beyond {} at {}; the branch is not followed further",
+                                      runaway_stretch, path_.text(part_));
+      return true;
+    }
+    if (std::ssize(outcome().branch) > most_points)
+      throw NumericsFailure("step",
+                            fmt::format("{} points have led to {} only", most_points, path_.text(part_)),
+                            "a nearer --to");
+    if (branch_->wants_a_finer_mesh())
+      refine_mesh(branch_->point(), branch_->tangent());
+    return false;
+  }
+
+  Outcome &outcome() { return record_.outcome; }
+  int nodes() const { return static_cast<int>(state_.system->nodes()); }
+  std::string place() const { return path_.text(part_); }
+
+private:
+  Path cases() const {
+    return [path = path_](double part) { return path.at(part); };
+  }
+  BranchRow look_at(const BranchPoint &point, bool profile) {
+    state_.unknowns = point.unknowns;
+    return record_.look_at(state_, point.parameter, profile);
+  }
+  double largest_stretch() const {
+    const Membrane &membrane = state_.system->membrane();
+    return membrane_state(membrane, membrane.at_nodes, branch_->point().unknowns.head(2L * nodes()))
+        .stretch_meridional.maxCoeff();
+  }
+
+  // Goes on from a point on a finer mesh; false if there is none that leads on.
+  bool refine_mesh(const BranchPoint &point, const Vector &tangent) {
+    const int more = finer_mesh(nodes());
+    if (!may_refine_ || more > most_nodes_of_a_branch)
+      return false;
+    const auto finer = system_on_mesh(path_.at(point.parameter), more);
+    const auto moved = [&](const Vector &unknowns) {
+      return moved_to(finer->membrane().basis, state_.system->membrane().basis, unknowns);
+    };
+    const Eigen::Index m = tangent.size() - 1;
+    Vector direction(2L * more + 3);
+    direction << moved(tangent.head(m)), tangent[m];
+    try {
+      branch_ = std::make_unique<Branch>(*finer, cases(), BranchPoint{moved(point.unknowns), point.parameter},
+                                         direction, steps);
+      state_ = {finer, branch_->point().unknowns};
+    } catch (const NumericsFailure &) {
+      may_refine_ = false;
+    }
+    return may_refine_;
+  }
+
+  KeyPath path_;
+  Record record_;
+  bool may_refine_;
+  SteadyState state_;
+  std::unique_ptr<Branch> branch_;
+  double part_ = 0;
 };
 
 } // namespace
@@ -72,67 +168,18 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
   require_way(asked, key, to);
   Case physics = asked;
   physics.accuracy = std::min(asked.accuracy, accuracy_of_folds);
-  const KeyPath path(key, physics, to);
-  Record record(path, physics.flow.viscosity_ratio, control);
-  Outcome &outcome = record.outcome;
+  Walk walk(physics, KeyPath(key, physics, to), control);
+  Outcome &outcome = walk.outcome();
   outcome.along = key;
-  double part = 0;
   try {
-    RefinedState start = refine(physics, find_steady(physics, {}, control), control);
-    outcome.error_estimate = start.error_estimate;
-    SteadyState state = start.state;
-    outcome.branch.push_back(record.look_at(state, part, true));
-    const Path cases = [&](double at) { return path.at(at); };
-    auto branch = std::make_unique<Branch>(*state.system, cases, BranchPoint{state.unknowns, 0},
-                                           Branch::upwards(*state.system), first_step, largest_step);
-    const auto note = [&](const BranchPoint &point, bool profile) {
-      state.unknowns = point.unknowns;
-      return record.look_at(state, point.parameter, profile);
-    };
-    for (;;) {
-      branch->advance();
-      if (branch->turned())
-        outcome.folds.push_back(note(branch->fold(), true));
-      const BranchPoint point = branch->point();
-      part = point.parameter;
-      const bool there = part >= 1;
-      const bool back = part <= 0;
-      if (there || back) {
-        outcome.branch.push_back(note(branch->at_parameter(there ? 1 : 0), true));
-        outcome.status = Status::reached;
-        if (back)
-          outcome.message = fmt::format("the branch turns back and does not reach {}", path.text(1));
-        break;
-      }
-      outcome.branch.push_back(note(point, false));
-      if (outcome.branch.back().row.max_stretch > runaway_stretch) {
-        outcome.status = Status::unbounded;
-        outcome.message = fmt::format("stretched beyond {} at {}; the branch is not followed further",
-                                      runaway_stretch, path.text(part));
-        break;
-      }
-      const int nodes = finer_mesh(static_cast<int>(state.system->nodes()));
-      if (branch->wants_a_finer_mesh() && physics.mesh.membrane == 0 && nodes <= most_nodes_of_a_branch) {
-        const SteadyState finer = on_mesh(path.at(part), nodes, state);
-        const Vector &tangent = branch->tangent();
-        Vector direction(2 * nodes + 3);
-        direction << moved_to(finer.system->membrane().basis, state.system->membrane().basis,
-                              tangent.head(tangent.size() - 1)),
-            tangent[tangent.size() - 1];
-        state = finer;
-        branch = std::make_unique<Branch>(*state.system, cases, BranchPoint{state.unknowns, part}, direction,
-                                          first_step, largest_step);
-      }
-      if (std::ssize(outcome.branch) > most_points)
-        throw NumericsFailure("step",
-                              fmt::format("{} points have led to {} only", most_points, path.text(part)),
-                              "a nearer --to");
+    walk.begin(refine(physics, find_steady(physics, {}, control), control));
+    while (!walk.go_on()) {
     }
-    outcome.membrane_nodes = static_cast<int>(state.system->nodes());
+    outcome.membrane_nodes = walk.nodes();
   } catch (const NumericsFailure &failure) {
     outcome.status = Status::failed;
     outcome.failure = failure.kind;
-    outcome.message = fmt::format("{} (after {}); {}", failure.what(), path.text(part), failure.advice);
+    outcome.message = fmt::format("{} (after {}); {}", failure.what(), walk.place(), failure.advice);
   } catch (const Interrupted &) {
     outcome.status = Status::interrupted;
   }

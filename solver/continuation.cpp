@@ -7,10 +7,9 @@ namespace capsule {
 namespace {
 
 constexpr int most_iterations = 25;
-constexpr double correction_tolerance = 1e-4; // of points on a branch: the next one would be its square
 constexpr double position_tolerance = 1e-9;
 constexpr double smallest_step = 1e-6;
-constexpr int many_corrections = 9;
+constexpr int many_corrections = 7;
 constexpr double largest_slack = 5e-7;
 
 [[noreturn]] void no_convergence() {
@@ -45,17 +44,14 @@ Vector solve_steady(SteadySystem &system, Vector guess, double tolerance) {
   no_convergence();
 }
 
-Branch::Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction, double first_step,
-               double largest_step)
-    : system_(&system), path_(std::move(path)), point_(std::move(start)), step_(first_step),
-      largest_step_(largest_step) {
-  system_->take(path_(point_.parameter));
-  system_->fit_tube(point_.unknowns);
-  const Eigen::Index m = point_.unknowns.size();
-  Matrix bordered(m + 1, m + 1);
-  bordered << system_->linearise(point_.unknowns).jacobian, parameter_slope(point_), direction.transpose();
-  tangent_ = bordered.partialPivLu().solve(Vector::Unit(m + 1, m));
-  tangent_ /= std::sqrt(weighted(tangent_, tangent_));
+Branch::Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction,
+               const Steps &steps)
+    : system_(&system), path_(std::move(path)), point_(std::move(start)), steps_(steps), step_(steps.first),
+      trend_(direction[direction.size() - 1] < 0 ? -1 : 1) {
+  const Corrected first =
+      correct(point_, direction / std::sqrt(weighted(direction, direction)), 0, position_tolerance);
+  point_ = first.point;
+  tangent_ = first.tangent;
 }
 
 Vector Branch::upwards(const SteadySystem &system) {
@@ -81,7 +77,7 @@ void Branch::balance() {
     weight_ = std::max(weight_ / 2, 1.0);
   const double stretched = std::sqrt(weighted(tangent_, tangent_));
   tangent_ /= stretched;
-  step_ = std::min(step_ * stretched, largest_step_); // the same way as before, if allowed
+  step_ = std::min(step_ * stretched, steps_.largest); // the same way as before, if allowed
 }
 
 // d residual/d parameter by central differences: the residual is smooth in it, the error about 1e-9.
@@ -142,7 +138,7 @@ void Branch::advance() {
   balance();
   for (;;) {
     try {
-      const Corrected next = correct(point_, tangent_, step_, correction_tolerance);
+      const Corrected next = correct(point_, tangent_, step_, steps_.tolerance);
       if (weighted(next.tangent, tangent_) > straight) {
         oldest_ = before_;
         before_ = point_;
@@ -150,9 +146,11 @@ void Branch::advance() {
         ++points_;
         point_ = next.point;
         tangent_ = next.tangent;
+        trend_before_ = trend_;
+        trend_ = point_.parameter < before_.parameter ? -1 : 1;
         corrections_ = next.iterations;
-        if (corrections_ <= 5)
-          step_ = std::min(1.7 * step_, largest_step_);
+        if (corrections_ <= 4)
+          step_ = std::min(1.7 * step_, steps_.largest);
         else if (corrections_ >= many_corrections)
           step_ /= 1.5;
         return;
@@ -180,7 +178,11 @@ bool Branch::wants_a_finer_mesh() const {
 }
 
 bool Branch::turned() const {
-  return points_ > 2 && (point_.parameter - before_.parameter) * (before_.parameter - oldest_.parameter) < 0;
+  return points_ > 1 && trend_ != trend_before_;
+}
+
+bool Branch::tangent_has_turned() const {
+  return tangent_[tangent_.size() - 1] * trend_ > 0;
 }
 
 double Branch::along_tangent_before(const BranchPoint &at) const {
@@ -192,8 +194,8 @@ double Branch::along_tangent_before(const BranchPoint &at) const {
 // Where the parameter has no slope along the arc: by the tangents, or, if they do not see it because the mesh
 // resolves some end of the shape poorly, by differences of the parameter itself.
 BranchPoint Branch::fold() const {
-  const double first = along_tangent_before(oldest_);
   const double last = along_tangent_before(point_);
+  const double first = points_ > 2 ? along_tangent_before(oldest_) : -last;
   const double h = 0.03 * std::min(-first, last);
   const auto at = [&](double step) { return correct(before_, tangent_before_, step, position_tolerance); };
   const auto by_tangents = [&](double step) { return at(step).tangent[tangent_.size() - 1]; };

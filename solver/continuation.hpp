@@ -22,15 +22,23 @@ Vector solve_steady(SteadySystem &system, Vector guess, double tolerance);
 
 class Branch {
 public:
-  // `start` is a steady state; the branch begins on the side to which `direction` points: changes of the
-  // unknowns, then of the parameter.
-  Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction, double first_step,
-         double largest_step);
+  // Along the branch; and how far the last correction of a point may be, in displacement. The next one would be
+  // about its square.
+  struct Steps {
+    double first, largest, tolerance;
+  };
+  // `start` is near to a steady state, at the same place along `direction` (changes of the unknowns, then of the
+  // parameter), which also tells the side on which the branch begins.
+  Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction, const Steps &steps);
   // ... to where the parameter grows.
   static Vector upwards(const SteadySystem &system);
 
   const BranchPoint &point() const { return point_; }
+  // The direction in which the branch goes on.
   const Vector &tangent() const { return tangent_; }
+  // The same of the point before.
+  const BranchPoint &point_before() const { return before_; }
+  const Vector &tangent_before() const { return tangent_before_; }
 
   // To the next point. Throws NumericsFailure when the smallest step fails; the branch stays where it was.
   void advance();
@@ -39,8 +47,10 @@ public:
   bool wants_a_finer_mesh() const;
   // The steady state between the last two points at a parameter between theirs.
   BranchPoint at_parameter(double parameter) const;
-  // Whether the parameter turned back among the last three points, and the fold there.
+  // Whether the parameter has turned back in the last step or shortly before it, and the fold there.
   bool turned() const;
+  // Whether the tangent sees it, too; if not, the mesh resolves some part of the shape too poorly to tell.
+  bool tangent_has_turned() const;
   BranchPoint fold() const;
 
 private:
@@ -59,8 +69,10 @@ private:
   Path path_;
   BranchPoint point_, before_, oldest_;
   Vector tangent_, tangent_before_;
-  double step_, largest_step_;
+  Steps steps_;
+  double step_;
   int points_ = 1, corrections_ = 0;
+  int trend_, trend_before_ = 0;
   double weight_ = 1; // of displacements
 };
 

@@ -99,10 +99,14 @@ int finer_mesh(int nodes) {
   return static_cast<int>(std::ceil(mesh_growth * nodes));
 }
 
+std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes) {
+  return std::make_shared<SteadySystem>(physics, resolution_of(physics, nodes));
+}
+
 namespace {
 
 SteadyState straight_to_mesh(const Case &physics, int nodes, const SteadyState &state) {
-  SteadyState moved{std::make_shared<SteadySystem>(physics, resolution_of(physics, nodes)), {}};
+  SteadyState moved{system_on_mesh(physics, nodes), {}};
   const Vector guess =
       moved_to(moved.system->membrane().basis, state.system->membrane().basis, state.unknowns);
   moved.unknowns = solve_steady(*moved.system, guess, position_tolerance);
@@ -111,11 +115,11 @@ SteadyState straight_to_mesh(const Case &physics, int nodes, const SteadyState &
 
 // Along a branch to its end on the same mesh.
 void follow(const KeyPath &path, SteadyState &state) {
-  constexpr double first_step = 0.1, largest_step = 0.5;
+  constexpr Branch::Steps steps{.first = 0.1, .largest = 0.5, .tolerance = 1e-4};
   constexpr int most_steps = 60;
   Branch branch(
       *state.system, [&](double part) { return path.at(part); }, {state.unknowns, 0},
-      Branch::upwards(*state.system), first_step, largest_step);
+      Branch::upwards(*state.system), steps);
   for (int step = 0; branch.point().parameter < 1; ++step) {
     if (step == most_steps || branch.point().parameter < 0)
       throw NumericsFailure("unresolved", fmt::format("no way to {}", path.text(1)),
@@ -124,8 +128,6 @@ void follow(const KeyPath &path, SteadyState &state) {
   }
   state.unknowns = branch.at_parameter(1).unknowns;
 }
-
-} // namespace
 
 // A shape with folds that its mesh hardly resolves is no good guess on another: then the way leads over a
 // stiffer membrane, whose folds are wider.
@@ -149,8 +151,6 @@ SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state) {
   }
 }
 
-namespace {
-
 // The way from a small stiff sphere in a weak flow to a case's capsule.
 class Way {
 public:
@@ -160,7 +160,7 @@ public:
     number(bending_key, now_) = std::max(stiff_bending, physics.membrane.bending_ratio);
     if (physics.pore.shape != PoreShape::none)
       number(size_key, now_) = std::min(small_radius, physics.capsule.radius);
-    state_.system = std::make_shared<SteadySystem>(now_, resolution_of(target_, first_nodes(physics)));
+    state_.system = system_on_mesh(now_, first_nodes(physics));
     state_.unknowns = solve_steady(*state_.system, state_.system->undeformed(), position_tolerance);
   }
 
@@ -194,11 +194,11 @@ private:
   // Follows the branch, through folds if it comes to that, from one part of the leg to its end or to where a
   // finer mesh is called for. What was reached stays in state_ and reached_ when it fails.
   double follow(const KeyPath &leg, double from) {
-    constexpr double first_step = 0.2, largest_step = 0.7;
+    constexpr Branch::Steps steps{.first = 0.2, .largest = 0.7, .tolerance = 1e-4};
     constexpr int most_steps = 200;
     Branch branch(
         *state_.system, [&](double part) { return leg.at(part); }, {state_.unknowns, from},
-        Branch::upwards(*state_.system), first_step, largest_step);
+        Branch::upwards(*state_.system), steps);
     std::string turned_at;
     for (int step = 0; step < most_steps; ++step) {
       listen(control_);

@@ -55,8 +55,8 @@ struct SteadyRecord {
 };
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
 
-// The same state on a mesh of so many nodes.
-SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state);
+// The equations of a case on a mesh of so many nodes.
+std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes);
 // Unknowns, or changes of them, on other nodes.
 Vector moved_to(const MeridianBasis &to, const MeridianBasis &from, const Vector &unknowns);
 int finer_mesh(int nodes);
