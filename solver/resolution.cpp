@@ -16,12 +16,12 @@ Resolution choose_resolution(const Case &physics) {
   resolution.membrane_nodes =
       physics.mesh.membrane > 0
           ? physics.mesh.membrane
-          : static_cast<int>(std::lround((20 - 5.5 * std::max(0.0, 1 - aspect)) * std::max(digits, 3.5) *
+          : static_cast<int>(std::lround((20 - 5.5 * std::max(0.0, 1 - aspect)) * std::max(digits, 2.8) *
                                          std::pow(flatness, 0.72)));
   const int nodes = resolution.membrane_nodes;
   resolution.energy_points = nodes * 5 / 4 + 8;
   resolution.time_tolerance =
-      physics.time.tolerance > 0 ? physics.time.tolerance : 1e-3 * std::min(physics.accuracy, 1e-3);
+      physics.time.tolerance > 0 ? physics.time.tolerance : 1e-3 * std::min(physics.accuracy, 2e-3);
 
   FlowResolution &flow = resolution.flow;
   // A panel of p Gauss points resolves about two thirds of the waves that p equidistant nodes would.
