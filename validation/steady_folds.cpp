@@ -30,14 +30,14 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
   FoldSearch search;
   search.state = start;
   BranchPoint good{start.unknowns, 0};
-  Branch branch(
-      *start.system, [&](double part) { return path.at(part); }, good, 1, largest_step, largest_step);
+  Branch branch(*start.system, [&](double part) { return path.at(part); }, good,
+                Branch::upwards(*start.system),
+                {.first = largest_step, .largest = largest_step, .tolerance = 1e-4});
   for (int step = 0; search.end.empty(); ++step) {
     if (step == most_steps) { // short steps: Newton's method has a hard time
       search.end = "mesh";
       break;
     }
-    const double slope = branch.slope();
     try {
       branch.advance();
     } catch (const NumericsFailure &) {
@@ -49,7 +49,7 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
       search.end = "mesh";
       break;
     }
-    if (slope > 0 && branch.slope() < 0) {
+    if (branch.turned()) {
       search.end = "fold";
       search.fold = Fold{{}, path.value(good.parameter), {start.system, good.unknowns}};
       now = branch.fold();
