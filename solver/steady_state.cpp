@@ -129,6 +129,8 @@ void follow(const KeyPath &path, SteadyState &state) {
   state.unknowns = branch.at_parameter(1).unknowns;
 }
 
+} // namespace
+
 // A shape with folds that its mesh hardly resolves is no good guess on another: then the way leads over a
 // stiffer membrane, whose folds are wider.
 SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state) {
@@ -150,6 +152,8 @@ SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state) {
     throw;
   }
 }
+
+namespace {
 
 // The way from a small stiff sphere in a weak flow to a case's capsule.
 class Way {

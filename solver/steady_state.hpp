@@ -57,6 +57,8 @@ SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
 
 // The equations of a case on a mesh of so many nodes.
 std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes);
+// The state on another mesh. Throws NumericsFailure("unresolved").
+SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state);
 // Unknowns, or changes of them, on other nodes.
 Vector moved_to(const MeridianBasis &to, const MeridianBasis &from, const Vector &unknowns);
 int finer_mesh(int nodes);

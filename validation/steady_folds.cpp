@@ -45,7 +45,7 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
       break;
     }
     BranchPoint now = branch.point();
-    if (std::abs(now.unknowns[now.unknowns.size() - 1]) > largest_slack) {
+    if (branch.wants_a_finer_mesh()) {
       search.end = "mesh";
       break;
     }

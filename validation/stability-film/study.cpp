@@ -53,7 +53,8 @@ Vector velocity(Layer layer, const Panels &panels, double film, double tolerance
     targets.x[k] += film * normal_x / length;
   }
   RowMatrix matrix;
-  assemble_layer(layer, targets, spheroid(panels), nullptr, tolerance, matrix);
+  const Curve curve = spheroid(panels);
+  assemble_layer(layer, targets, curve, nullptr, NearRule(curve.panel_points, tolerance), matrix);
   return matrix * density(panels);
 }
 
