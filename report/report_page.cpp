@@ -3,6 +3,8 @@
 // PAGE is written; every DIRECTORY is a case or a study, cases/<id> or validation/<id>, whose figures, comparison and
 // results are taken from figures/<id>/, tables/<id>.csv and results/<id>/, as `make figures` and `make atlas` leave
 // them. What a directory has not computed yet is left out. The page's frame, style and player lie beside this file.
+#include "output.hpp"
+#include "run_values.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,26 +43,9 @@ std::vector<fs::path> files_of(const fs::path &directory, const std::string &end
   return files;
 }
 
-// Rows of fields; a field in quotes may hold commas, line ends and doubled quotes.
-std::vector<std::vector<std::string>> read_csv(const fs::path &file) {
-  std::vector<std::vector<std::string>> rows = {{""}};
-  bool quoted = false;
-  const std::string text = read_file(file);
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"')
-      rows.back().back() += text[++i];
-    else if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      rows.back().emplace_back();
-    else if (c == '\n' && !quoted)
-      rows.push_back({""});
-    else
-      rows.back().back() += c;
-  }
-  if (rows.back() == std::vector<std::string>{""})
-    rows.pop_back();
+std::vector<std::vector<std::string>> read_table(const fs::path &csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::ranges::transform(capsule::read_lines(csv), std::back_inserter(rows), capsule::split_csv);
   return rows;
 }
 
@@ -125,7 +110,7 @@ std::string table_cell(const std::string &text) {
 }
 
 std::string table(const fs::path &csv) {
-  const auto rows = read_csv(csv);
+  const auto rows = read_table(csv);
   std::string html = "<div class=\"table\" tabindex=\"0\"><table>\n<thead><tr>";
   for (const std::string &name : rows.front())
     html += fmt::format("<th scope=\"col\">{}</th>", escaped(name));
@@ -204,16 +189,6 @@ std::string provenance(const std::vector<fs::path> &runs) {
   return html + "</tbody></table></div>\n";
 }
 
-// Columns of a CSV file of numbers by their names; NaN where there is none.
-std::map<std::string, std::vector<double>> read_columns(const fs::path &file) {
-  const auto rows = read_csv(file);
-  std::map<std::string, std::vector<double>> columns;
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    for (std::size_t k = 0; k < rows[i].size(); ++k)
-      columns[rows[0].at(k)].push_back(rows[i][k].empty() ? NAN : std::stod(rows[i][k]));
-  return columns;
-}
-
 // As many digits as a picture needs.
 double rounded(double value) {
   return std::round(value * 1e4) / 1e4;
@@ -231,34 +206,36 @@ const std::vector<std::pair<std::string, std::string>> player_fields = {
     {"tension_meridional", "tension along the meridian"},
     {"tension_azimuthal", "tension around the axis"}};
 
-// One frame of the player per profile, in the order in which they were taken.
-Json player_frames(const fs::path &run) {
+// The rows at which the profiles of a run begin, in the order in which they were taken, and the end of the last.
+std::vector<std::size_t> profile_bounds(const std::vector<double> &time) {
+  std::vector<std::size_t> bounds;
+  for (std::size_t i = 0; i < time.size(); ++i)
+    if (i == 0 || time[i] != time[i - 1])
+      bounds.push_back(i);
+  bounds.push_back(time.size());
+  return bounds;
+}
+
+// Frame of the player of the profile in the rows from `first` to before `last`.
+Json player_frame(const capsule::Columns &profiles, std::size_t first, std::size_t last) {
   constexpr std::size_t most_points = 128; // of a profile; the eye sees no more
-  auto columns = read_columns(run / "profiles.csv");
-  const std::vector<double> &time = columns["time"];
-  Json frames = Json::array();
-  for (std::size_t first = 0, last = 0; first < time.size(); first = last) {
-    while (last < time.size() && time[last] == time[first])
-      ++last;
-    const std::size_t stride = 1 + (last - first) / most_points;
-    const auto part = [&](const std::string &name) {
-      const std::vector<double> &whole = columns.at(name);
-      std::vector<double> thinned;
-      for (std::size_t i = first; i + 1 < last; i += stride)
-        thinned.push_back(whole[i]);
-      thinned.push_back(whole[last - 1]);
-      return rounded(thinned);
-    };
-    Json fields = Json::array();
-    for (const auto &[column, name] : player_fields)
-      fields.push_back(part(column));
-    frames.push_back({{"time", rounded(time[first])},
-                      {"x_g", rounded(columns["x_g"][first])},
-                      {"x", part("x")},
-                      {"r", part("r")},
-                      {"fields", fields}});
-  }
-  return frames;
+  const std::size_t stride = 1 + (last - first) / most_points;
+  const auto part = [&](const std::string &name) {
+    const std::vector<double> &whole = profiles.at(name);
+    std::vector<double> thinned;
+    for (std::size_t i = first; i + 1 < last; i += stride)
+      thinned.push_back(whole[i]);
+    thinned.push_back(whole[last - 1]);
+    return rounded(thinned);
+  };
+  Json fields = Json::array();
+  for (const auto &[column, name] : player_fields)
+    fields.push_back(part(column));
+  return {{"time", rounded(profiles.at("time")[first])},
+          {"x_g", rounded(profiles.at("x_g")[first])},
+          {"x", part("x")},
+          {"r", part("r")},
+          {"fields", fields}};
 }
 
 // The runs that keep enough profiles to be seen in motion.
@@ -266,17 +243,22 @@ std::string player_data(const std::vector<fs::path> &runs) {
   constexpr std::size_t fewest_frames = 20;
   Json played = Json::array();
   for (const fs::path &run : runs) {
-    const Json frames = player_frames(run);
-    if (frames.size() < fewest_frames)
+    const capsule::Columns profiles = capsule::read_columns(run / "profiles.csv");
+    const std::vector<std::size_t> bounds = profile_bounds(profiles.at("time"));
+    if (bounds.size() <= fewest_frames)
       continue;
+    Json frames = Json::array();
+    for (std::size_t k = 0; k + 1 < bounds.size(); ++k)
+      frames.push_back(player_frame(profiles, bounds[k], bounds[k + 1]));
     const Json parameters = Json::parse(read_file(run / "summary.json")).at("parameters");
     const Json &title = parameters.at("title");
-    auto series = read_columns(run / "series.csv");
+    const capsule::Columns series = capsule::read_columns(run / "series.csv");
     played.push_back(
         {{"name",
           title.is_null() ? run_name(run) : fmt::format("{}: {}", title.get<std::string>(), run_name(run))},
          {"opening_angle", parameters.at("pore.opening_angle_deg").get<double>() * std::numbers::pi / 180},
-         {"series", {{"x_g", rounded(series["x_g"])}, {"pressure_drop", rounded(series["pressure_drop"])}}},
+         {"series",
+          {{"x_g", rounded(series.at("x_g"))}, {"pressure_drop", rounded(series.at("pressure_drop"))}}},
          {"frames", frames}});
   }
   Json names = Json::array();
@@ -314,13 +296,7 @@ void write_page(const fs::path &page, const std::vector<fs::path> &directories) 
               {"studies", studies},
               {"provenance", provenance(runs)},
               {"player", player_data(runs)}});
-  const fs::path draft = fs::path(page).concat(".part");
-  std::ofstream stream(draft, std::ios::binary);
-  stream << html;
-  stream.close();
-  if (!stream)
-    throw std::runtime_error(fmt::format("{}: cannot be written", draft.string()));
-  fs::rename(draft, page);
+  capsule::write_atomically(page, html);
 }
 
 } // namespace

@@ -23,16 +23,6 @@ Vector clustered(const Vector &zeta, double aspect_ratio) {
   return zeta.array() + flat * (0.28 * (2 * zeta.array()).sin() - 0.42 * zeta.array().sin());
 }
 
-// The membrane of the standard preset.
-Membrane standard_membrane(const Case &physics, const Resolution &resolution) {
-  const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
-  Membrane membrane = make_membrane(physics, spectral_basis(resolution.membrane_nodes), energy_rule.nodes,
-                                    energy_rule.weights);
-  membrane.node_angle = clustered(membrane.basis.nodes, physics.capsule.aspect_ratio);
-  take_physics(physics, membrane);
-  return membrane;
-}
-
 Vector start_position(const Membrane &membrane, double start_x) {
   Vector start = membrane.reference;
   start.head(membrane.basis.size()).array() += start_x;
@@ -74,6 +64,8 @@ Dynamics standard_dynamics(const Case &physics) {
   const Resolution resolution = choose_resolution(physics);
   Dynamics dynamics;
   dynamics.membrane = standard_membrane(physics, resolution);
+  dynamics.membrane.node_angle = clustered(dynamics.membrane.basis.nodes, physics.capsule.aspect_ratio);
+  take_physics(physics, dynamics.membrane);
   dynamics.start = start_position(dynamics.membrane, physics.capsule.start_x);
   const auto system = std::make_shared<const FlowSystem>(physics, dynamics.membrane.basis, resolution.flow);
   const auto membrane = std::make_shared<const Membrane>(dynamics.membrane);
@@ -118,6 +110,12 @@ Dynamics paper_dynamics(const Case &physics) {
 }
 
 } // namespace
+
+Membrane standard_membrane(const Case &physics, const Resolution &resolution) {
+  const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
+  return make_membrane(physics, spectral_basis(resolution.membrane_nodes), energy_rule.nodes,
+                       energy_rule.weights);
+}
 
 Dynamics make_dynamics(const Case &physics) {
   return physics.numerics == Numerics::paper ? paper_dynamics(physics) : standard_dynamics(physics);

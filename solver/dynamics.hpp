@@ -4,6 +4,7 @@
 #include "case.hpp"
 #include "flow_state.hpp"
 #include "membrane.hpp"
+#include "resolution.hpp"
 #include <functional>
 
 namespace capsule {
@@ -22,6 +23,9 @@ struct Dynamics {
   // alone.
   std::function<void()> forget;
 };
+
+// The membrane of the standard preset, its nodes where the basis has them.
+Membrane standard_membrane(const Case &physics, const Resolution &resolution);
 
 // Builds what stays fixed: reference shape, matrices, the wall's factors and the empty pore's flow.
 Dynamics make_dynamics(const Case &physics);

@@ -52,10 +52,6 @@ constexpr std::array series_columns{
     SeriesColumn{"roughness", &SeriesRow::roughness},
 };
 
-const SeriesColumn *find_series_column(std::string_view name) {
-  const auto found = std::ranges::find(series_columns, name, &SeriesColumn::name);
-  return found == series_columns.end() ? nullptr : &*found;
-}
 constexpr std::array branch_columns{
     SeriesColumn{"v_g", &SeriesRow::v_g},
     SeriesColumn{"pressure_drop", &SeriesRow::pressure_drop},
@@ -313,17 +309,25 @@ Json physical_json(const Case &physics, const Json &summary) {
 // The series in SI units, the unit in each column's head.
 std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow> &series) {
   const Scales scales = physical_scales(physics);
+  struct Scaled {
+    double SeriesRow::*value;
+    double scale;
+  };
+  std::vector<Scaled> columns;
   std::string text;
   for (const PhysicalColumn &column : physical_columns)
-    if (find_series_column(column.name))
+    if (const auto source =
+            std::ranges::find(series_columns, std::string_view(column.name), &SeriesColumn::name);
+        source != series_columns.end()) {
       text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name, unit_text(column.of));
+      columns.push_back({source->value, scales.*column.scale});
+    }
   for (const SeriesRow &row : series) {
     char separator = '\n';
-    for (const PhysicalColumn &column : physical_columns)
-      if (const SeriesColumn *source = find_series_column(column.name)) {
-        text += separator + number_text(row.*source->value * scales.*column.scale);
-        separator = ',';
-      }
+    for (const Scaled &column : columns) {
+      text += separator + number_text(row.*column.value * column.scale);
+      separator = ',';
+    }
   }
   return text + "\n";
 }
@@ -411,8 +415,7 @@ bool is_result(const fs::path &file) {
   const std::string name = file.filename().string();
   return name == "summary.json" || name == "series.csv" || name == "series_physical.csv" ||
          name == "profiles.csv" || name == "resolved.toml" || name == "run.json" || name == "membrane.pvd" ||
-         name == "branch.csv" ||
-         (name.starts_with("membrane_") && name.ends_with(".vtp"));
+         name == "branch.csv" || (name.starts_with("membrane_") && name.ends_with(".vtp"));
 }
 
 std::vector<fs::path> files_in(const fs::path &directory,

@@ -106,16 +106,6 @@ Values profile_values(const Columns &profiles, const Reference &reference) {
                      : values;
 }
 
-// Whether there is such a file (a study leaves a summary only) with such a column.
-bool has_column(const fs::path &file, const std::string &name) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored))
-    return false;
-  const std::vector<std::string> lines = read_lines(file);
-  const std::vector<std::string> names = split_csv(lines.empty() ? "" : lines[0]);
-  return std::ranges::find(names, name) != names.end();
-}
-
 } // namespace
 
 std::vector<std::string> read_lines(const fs::path &file) {
@@ -127,6 +117,20 @@ std::vector<std::string> read_lines(const fs::path &file) {
   for (std::string line; std::getline(stream, line);)
     lines.push_back(line);
   return lines;
+}
+
+Columns read_columns(const fs::path &file) {
+  const std::vector<std::string> lines = read_lines(file);
+  const std::vector<std::string> names = split_csv(lines.empty() ? "" : lines[0]);
+  Columns columns;
+  for (const std::string &name : names)
+    columns[name] = {};
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> fields = split_csv(lines[i]);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      columns[names[k]].push_back(std::stod(fields.at(k)));
+  }
+  return columns;
 }
 
 std::vector<std::string> split_csv(const std::string &line) {
@@ -213,17 +217,13 @@ std::vector<const RunResult *> RunTable::selected(const Reference &reference, co
 }
 
 const Columns &RunTable::columns(const fs::path &file) const {
-  if (const auto known = files_.find(file); known != files_.end())
-    return known->second;
-  const std::vector<std::string> lines = read_lines(file);
-  const std::vector<std::string> names = split_csv(lines.empty() ? "" : lines[0]);
-  Columns &columns = files_[file];
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> fields = split_csv(lines[i]);
-    for (std::size_t k = 0; k < names.size(); ++k)
-      columns[names[k]].push_back(std::stod(fields.at(k)));
-  }
-  return columns;
+  const auto known = files_.find(file);
+  return known != files_.end() ? known->second : files_.emplace(file, read_columns(file)).first->second;
+}
+
+bool RunTable::has_column(const fs::path &file, const std::string &name) const {
+  std::error_code ignored;
+  return fs::exists(file, ignored) && columns(file).contains(name);
 }
 
 Values RunTable::values_in(const RunResult &run, const Reference &reference) const {

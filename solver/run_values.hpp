@@ -47,6 +47,8 @@ private:
   std::vector<const RunResult *> selected(const Reference &reference, const std::string &case_name,
                                           const RunResult *run) const;
   const Columns &columns(const std::filesystem::path &file) const;
+  // Whether there is such a file (a study leaves a summary only) with such a column.
+  bool has_column(const std::filesystem::path &file, const std::string &name) const;
   Values values_in(const RunResult &run, const Reference &reference) const;
 
   std::map<std::string, std::vector<RunResult>> runs_;
@@ -57,6 +59,8 @@ private:
 std::optional<std::string> case_of(const Reference &reference);
 std::string runs_of(const Reference &reference);
 
+// Throws FileError, and std::exception where a field is no number.
+Columns read_columns(const std::filesystem::path &file);
 // Fields between commas; a field may stand in double quotes, doubled inside.
 std::vector<std::string> split_csv(const std::string &line);
 std::vector<std::string> read_lines(const std::filesystem::path &file);

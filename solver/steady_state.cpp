@@ -16,6 +16,7 @@ namespace {
 
 constexpr double position_tolerance = 1e-9;
 constexpr double mesh_growth = 1.35;
+constexpr int most_nodes = 420;
 constexpr double largest_stretch = 4; // as in a march: beyond, the membrane is said to run away
 
 constexpr const char *size_key = "capsule.radius";

@@ -62,7 +62,6 @@ SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state);
 // Unknowns, or changes of them, on other nodes.
 Vector moved_to(const MeridianBasis &to, const MeridianBasis &from, const Vector &unknowns);
 int finer_mesh(int nodes);
-constexpr int most_nodes = 420;
 
 // Thrown where the caller asks to stop.
 struct Interrupted {};

@@ -1,4 +1,5 @@
 #include "steady_system.hpp"
+#include "dynamics.hpp"
 #include "failure.hpp"
 #include <algorithm>
 #include <cmath>
@@ -21,16 +22,10 @@ Case scene_of(const Case &physics) {
   return scene;
 }
 
-Membrane membrane_on(const Case &physics, const Resolution &resolution) {
-  const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
-  return make_membrane(physics, spectral_basis(resolution.membrane_nodes), energy_rule.nodes,
-                       energy_rule.weights);
-}
-
 } // namespace
 
 SteadySystem::SteadySystem(const Case &physics, const Resolution &resolution)
-    : scene_(scene_of(physics)), resolution_(resolution), membrane_(membrane_on(physics, resolution)) {
+    : scene_(scene_of(physics)), resolution_(resolution), membrane_(standard_membrane(physics, resolution)) {
   take(physics);
   half_length_ = wall_beyond + 1.5;
   build_flow();

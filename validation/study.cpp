@@ -1,6 +1,7 @@
 #include "study.hpp"
 #include "failure.hpp"
 #include "motion.hpp"
+#include "run_values.hpp"
 #include "workers.hpp"
 #include <algorithm>
 #include <cmath>
@@ -10,18 +11,9 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 namespace capsule {
 namespace {
-
-std::vector<std::string> split(const std::string &line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');)
-    cells.push_back(cell);
-  return cells;
-}
 
 // Grid position of a row: its x_g in units of 0.05, and whether it lies on the grid.
 struct GridPlace {
@@ -124,18 +116,10 @@ History history_of(const std::vector<SeriesRow> &series) {
 }
 
 StudyRun read_run(const std::filesystem::path &directory) {
-  StudyRun run{read_summary(directory), {}};
-  std::ifstream file(directory / "series.csv");
-  std::string line;
-  std::getline(file, line);
-  const std::vector<std::string> names = split(line);
-  while (std::getline(file, line)) {
-    const std::vector<std::string> cells = split(line);
-    for (std::size_t k = 0; k < names.size(); ++k)
-      run.history[names[k]].push_back(std::stod(cells.at(k)));
-  }
-  if (run.history.empty())
-    throw FileError((directory / "series.csv").string() + ": no rows");
+  const std::filesystem::path series = directory / "series.csv";
+  StudyRun run{read_summary(directory), read_columns(series)};
+  if (run.history.at("x_g").empty())
+    throw FileError(series.string() + ": no rows");
   return run;
 }
 

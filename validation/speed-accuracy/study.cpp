@@ -226,37 +226,28 @@ RunInput reference_run(const Scene &scene, const std::string &which, double node
 
 // ---- How the time grows ----
 
-void measure_growth(const fs::path &directory) {
-  const auto evaluation = [](const Case &physics) {
+// Seconds of one velocity against a number of the mesh, "membrane" or "wall".
+Table growth_with(const std::string &mesh, const std::string &column, const std::vector<int> &numbers) {
+  const auto seconds = [](const Case &physics) {
     const Dynamics dynamics = make_dynamics(physics);
     return seconds_of([&] { dynamics.flow(dynamics.start); });
   };
-  Table membrane("nodes,lambda1,lambda5,paper");
-  for (const int nodes : {32, 64, 96, 128, 192, 256}) {
-    Case one = physics_of(scenes()[0], 1e-4);
-    Case five = physics_of(scenes()[1], 1e-4);
-    one.mesh.membrane = five.mesh.membrane = nodes;
-    const Case paper =
-        read_case(home / "table1.toml", {"numerics=paper", fmt::format("mesh.membrane={}", nodes)})
-            .runs.front()
-            .physics;
-    membrane.add(
-        fmt::format("{},{:.4g},{:.4g},{:.4g}", nodes, evaluation(one), evaluation(five), evaluation(paper)));
+  Table table(column + ",lambda1,lambda5,paper");
+  for (const int number : numbers) {
+    const auto on_mesh = [&](Case physics) {
+      (mesh == "wall" ? physics.mesh.wall : physics.mesh.membrane) = number;
+      return physics;
+    };
+    const Case paper = read_case(home / "table1.toml", {"numerics=paper"}).runs.front().physics;
+    table.add(fmt::format("{},{:.4g},{:.4g},{:.4g}", number, seconds(on_mesh(physics_of(scenes()[0], 1e-4))),
+                          seconds(on_mesh(physics_of(scenes()[1], 1e-4))), seconds(on_mesh(paper))));
   }
-  membrane.write(directory / "growth-membrane.csv");
-  Table wall("elements,lambda1,lambda5,paper");
-  for (const int elements : {60, 120, 240, 480}) {
-    Case one = physics_of(scenes()[0], 1e-4);
-    Case five = physics_of(scenes()[1], 1e-4);
-    one.mesh.wall = five.mesh.wall = elements;
-    const Case paper =
-        read_case(home / "table1.toml", {"numerics=paper", fmt::format("mesh.wall={}", elements)})
-            .runs.front()
-            .physics;
-    wall.add(fmt::format("{},{:.4g},{:.4g},{:.4g}", elements, evaluation(one), evaluation(five),
-                         evaluation(paper)));
-  }
-  wall.write(directory / "growth-wall.csv");
+  return table;
+}
+
+void measure_growth(const fs::path &directory) {
+  growth_with("membrane", "nodes", {32, 64, 96, 128, 192, 256}).write(directory / "growth-membrane.csv");
+  growth_with("wall", "elements", {60, 120, 240, 480}).write(directory / "growth-wall.csv");
 }
 
 // ---- Where the time goes ----
