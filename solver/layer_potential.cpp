@@ -13,6 +13,22 @@ void complete(Curve &curve) {
   curve.area = curve.weights.array() * curve.arc.array() * curve.r.array();
 }
 
+namespace {
+
+void find_nearest(const Panels &panels, SelfRule::Site &site) {
+  const Eigen::Index p = panels.rule.size();
+  site.gap_squared.minCoeff(&site.nearest);
+  const Eigen::Index place = site.nearest % p;
+  const Eigen::Index behind = p - 1 - place;
+  Vector others(p - 1);
+  others << panels.rule.nodes.head(place), panels.rule.nodes.tail(behind);
+  const Vector weights = lagrange_matrix(others, panels.rule.nodes.segment(place, 1)).transpose();
+  site.from_panel.resize(p);
+  site.from_panel << weights.head(place), 0, weights.tail(behind);
+}
+
+} // namespace
+
 SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta) {
   const Eigen::Index p = panels.rule.size();
   SelfRule self;
@@ -36,6 +52,7 @@ SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta) {
           half *
           (logarithm_weights(panels.rule, (zeta - middle) / half) + 2 * std::log(half) * panels.rule.weights);
     }
+    find_nearest(panels, site);
     self.sites.push_back(std::move(site));
   }
   return self;
@@ -76,6 +93,13 @@ double near_factor(Eigen::Index points, double tolerance) {
   return std::sinh(-std::log(tolerance) / (2.0 * static_cast<double>(points)));
 }
 
+// Parts of the distance of a curve's points within which a target's nearest one is no use: differences of their
+// positions are rounding errors. The double layer has the square of the distance below e.n, the single layer
+// d itself below components of e.
+double too_near(Layer layer) {
+  return layer == Layer::single ? 1e-4 : 1e-2;
+}
+
 // Weights of the panels that hold or touch a target on the curve. The kernel is
 // smooth - ln(m1) logarithmic with ln(m1) = ln(gap^2) + a smooth function (layer split of ring_kernel.hpp).
 KernelBlock integrate_self(Layer layer, double x0, double r0, const Curve &curve,
@@ -92,7 +116,16 @@ KernelBlock integrate_self(Layer layer, double x0, double r0, const Curve &curve
   const auto dx2 = (curve.x.segment(first, n).array() - x0).square();
   const auto dr2 = (curve.r.segment(first, n).array() - r0).square();
   const auto sum2 = (curve.r.segment(first, n).array() + r0).square();
-  const Eigen::ArrayXd remainder = ((dx2 + dr2) / ((dx2 + sum2) * site.gap_squared.array())).log();
+  Eigen::ArrayXd remainder = ((dx2 + dr2) / ((dx2 + sum2) * site.gap_squared.array())).log();
+  const Eigen::Index nearest = site.nearest;
+  if (std::sqrt(site.gap_squared[nearest]) < too_near(layer) * curve.weights[first + nearest]) {
+    const Eigen::Index p = curve.panel_points;
+    const Eigen::Index panel = nearest / p * p;
+    smooth.col(nearest).setZero(); // may be no number
+    remainder[nearest] = 0;
+    smooth.col(nearest) = smooth.middleCols(panel, p) * site.from_panel;
+    remainder[nearest] = remainder.segment(panel, p).matrix().dot(site.from_panel);
+  }
   const Eigen::ArrayXd element = curve.arc.segment(first, n).array() * curve.r.segment(first, n).array();
   const Eigen::ArrayXd plain = curve.weights.segment(first, n).array() * element;
   const Eigen::ArrayXd product = plain * remainder + site.logarithm.array() * element;

@@ -39,6 +39,10 @@ struct SelfRule {
     Eigen::Index first_point = 0; // of the run of panels with product weights
     Vector gap_squared;           // (zeta_q - zeta_target)^2
     Vector logarithm; // integral of ln((zeta - zeta_target)^2) times the cardinal polynomial of point q
+    // The nearest point, which may all but coincide with the target, and the weights that find a smooth
+    // function there from the other points of its panel.
+    Eigen::Index nearest = 0;
+    Vector from_panel;
   };
   std::vector<Site> sites; // one a target
 };

@@ -125,6 +125,25 @@ BOOST_AUTO_TEST_CASE(gauss_identity_of_the_stresslet) {
                    .maxCoeff() < 1e-9);
 }
 
+// The same on the surface of a slender spheroid, with targets on or almost on points of the rule.
+BOOST_AUTO_TEST_CASE(targets_beside_a_point_of_the_rule) {
+  const double a = 1.5;
+  const double b = 0.8;
+  Spheroid s = spheroid(a, b, 96);
+  for (const double gap : {0.0, 1e-15, 1e-12, 1e-9, 4e-8, 1e-6, 1e-5, 1e-4, 1e-3}) {
+    constexpr Eigen::Index polar = 3; // panels without nodes, and their neighbours
+    Vector zeta(s.panels.count() - 2 * polar);
+    for (Eigen::Index k = 0; k < zeta.size(); ++k)
+      zeta[k] = s.panels.points[12 * (polar + k) + k % 12] + gap;
+    s.nodes = {-a * zeta.array().cos(), b * zeta.array().sin()};
+    s.self = make_self_rule(s.panels, zeta);
+    const Vector moved = assemble(Layer::dbl, s.nodes, s, true) * uniform_axial(s.curve.size());
+    BOOST_TEST((moved - 0.5 * uniform_axial(zeta.size())).cwiseAbs().maxCoeff() < 1e-9);
+    BOOST_TEST((assemble(Layer::single, s.nodes, s, true) * normal_density(s.curve)).cwiseAbs().maxCoeff() <
+               1e-9);
+  }
+}
+
 // The panels cut beforehand do the same, from a film of 1/3 to one of 1/2000 of a panel.
 BOOST_AUTO_TEST_CASE(fixed_near_rule_keeps_the_single_layer_of_the_normal_at_zero) {
   const double a = 0.385;
