@@ -207,25 +207,24 @@ std::vector<Eigen::Index> pictured_points(const Profile &profile) {
   return chosen;
 }
 
-// One profile turned about the axis: quadrilaterals between its points and `turns` meridians.
+// One profile turned about the axis: a strip of triangles between each two of its points, around `turns` meridians.
 std::string surface_vtp(const Profile &profile) {
-  constexpr int turns = 48;
+  constexpr int turns = 32;
   const std::vector<Eigen::Index> chosen = pictured_points(profile);
   const auto points = std::ssize(chosen);
   std::string positions, connectivity, offsets;
   for (const Eigen::Index i : chosen)
     for (int k = 0; k < turns; ++k) {
       const double azimuth = 2 * std::numbers::pi * k / turns;
-      positions += fmt::format("{:.7g} {:.7g} {:.7g}\n", profile.x[i], profile.r[i] * std::cos(azimuth),
+      positions += fmt::format("{:.6g} {:.6g} {:.6g}\n", profile.x[i], profile.r[i] * std::cos(azimuth),
                                profile.r[i] * std::sin(azimuth));
     }
   const auto point = [](Eigen::Index i, int k) { return i * turns + k % turns; };
-  for (Eigen::Index i = 0; i + 1 < points; ++i)
-    for (int k = 0; k < turns; ++k) {
-      connectivity +=
-          fmt::format("{} {} {} {}\n", point(i, k), point(i + 1, k), point(i + 1, k + 1), point(i, k + 1));
-      offsets += fmt::format("{}\n", 4 * (i * turns + k + 1));
-    }
+  for (Eigen::Index i = 0; i + 1 < points; ++i) {
+    for (int k = 0; k <= turns; ++k)
+      connectivity += fmt::format("{} {}\n", point(i, k), point(i + 1, k));
+    offsets += fmt::format("{}\n", 2 * (turns + 1) * (i + 1));
+  }
   std::string fields;
   for (const ProfileColumn &column : profile_columns) {
     const std::string_view name = column.name;
@@ -234,17 +233,17 @@ std::string surface_vtp(const Profile &profile) {
     fields += fmt::format("<DataArray type=\"Float32\" Name=\"{}\" format=\"ascii\">\n", name);
     for (const Eigen::Index i : chosen)
       for (int k = 0; k < turns; ++k)
-        fields += fmt::format("{:.7g}\n", (profile.*column.values)[i]);
+        fields += fmt::format("{:.5g}\n", (profile.*column.values)[i]);
     fields += "</DataArray>\n";
   }
   return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
-                     "<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n<PointData>\n{}</PointData>\n"
+                     "<Piece NumberOfPoints=\"{}\" NumberOfStrips=\"{}\">\n<PointData>\n{}</PointData>\n"
                      "<Points>\n<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">\n{}"
-                     "</DataArray>\n</Points>\n<Polys>\n"
+                     "</DataArray>\n</Points>\n<Strips>\n"
                      "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n{}</DataArray>\n"
                      "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n{}</DataArray>\n"
-                     "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n",
-                     points * turns, (points - 1) * turns, fields, positions, connectivity, offsets);
+                     "</Strips>\n</Piece>\n</PolyData>\n</VTKFile>\n",
+                     points * turns, points - 1, fields, positions, connectivity, offsets);
 }
 
 std::string surface_name(std::size_t index) {

@@ -47,7 +47,7 @@ for file in files:
     body = vtk.vtkMassProperties()
     body.SetInputConnection(triangles.GetOutputPort())
     volume, sphere = body.GetVolume(), 4 / 3 * math.pi * 0.7**3
-    assert abs(volume / sphere - 1) < 0.01, (file, volume, sphere)  # of a polyhedron with 48 sides
+    assert abs(volume / sphere - 1) < 0.01, (file, volume, sphere)  # of a polyhedron with 32 sides
     left, right = surface.GetBounds()[:2]
     assert -3.3 < left < right < -0.5, (left, right)
     print(f"{file}: {surface.GetNumberOfPoints()} points, volume {volume:.4f} of {sphere:.4f}")

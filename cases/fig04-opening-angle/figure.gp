@@ -10,7 +10,7 @@ difference(i, k) = number(system(sprintf("paste -d, %s %s | awk -F, 'NR == 1 {n 
 eval figure("fig04", 8.6, 6)
 eval view(last_x_g - 1.2, last_x_g + 1.8, 0, 1.3)
 set xtics 0.5; set ytics 0.5
-set key at last_x_g + 0.7, 0.6
+set key at last_x_g + 0.68, 0.5
 plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" with lines linetype i title name(i)
 print sprintf("**Figure 4.** Profiles at x_g = %g behind two mouths. They are at most", last_x_g), \
   sprintf("%.0e pore radii apart, with pressure drops of %.4f and %.4f:", difference(1, count), \

@@ -42,19 +42,6 @@ plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" w
 print sprintf("**Figure 5a.** Profiles at x_g = %g for different viscosity ratios. They lie on each other:", last_x_g), \
   "the steady shape does not depend on the internal liquid."
 
-eval figure("fig06a", 17, 4.8)
-eval view(-5.2, 13, -2, 2)
-set xtics 1; set ytics 1
-positions = sprintf("-4 -1 1.2 3.5 6 9 %g", last_x_g)
-plot @wall, for [p in positions] for [side=-1:1:2] \
-    profiles(one) using (at_x_g(p, "x")):(side * column("r")) with @capsule_fill, \
-  for [p in positions] for [side=-1:1:2] \
-    profiles(one) using (at_x_g(p, "x")):(side * column("r")) with lines linetype 1
-print sprintf("**Figure 6a.** Successive profiles of the sphere for λ = %g.", parameter(one, "flow.viscosity_ratio")), \
-  "It elongates in the mouth and settles to a", \
-  sprintf("parachute that is stretched by at most %.1f %%", 100 * (result(one, "max_stretch") - 1)), \
-  sprintf("and leaves a film of %.3f pore radii.", result(one, "min_film"))
-
 eval figure("fig07a", 12, 8)
 set multiplot
 set xrange [-4:12]; set yrange [0:18]

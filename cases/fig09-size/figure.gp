@@ -14,9 +14,9 @@ first_lambda = word(lambdas, 1) + 0
 last_lambda = word(lambdas, words(lambdas)) + 0
 
 eval figure("fig09", 12, 9)
-set xrange [-4:12]; set yrange [0:45]
+set xrange [-4:12]; set yrange [0:40]
 set xlabel x_g_label; set ylabel pressure_label
-set key at -3.7, 44 left top
+set key at -3.7, 39 left top
 do for [size in radii] {
   end = run(int(of(size + 0, first_lambda)))
   set label sprintf("{/:Italic R}_{eq} = %s", size) at result(end, "x_g") - 0.2, result(end, "pressure_drop") right offset 0, 0.8

@@ -26,8 +26,6 @@ do for [i=1:count] {
 marks = marks.marks_title(marks, "Table 3")
 spread = 100 * (highest - lowest) / result(one, "pressure_drop")
 
-stats series(one) using "x_g":"min_film" name "film" nooutput # the thinnest film on the way, and where
-
 eval figure("fig05b", 8.6, 5.6)
 eval view(last_x_g - 1.14, last_x_g + 1.26, 0, 1.3)
 set xtics 0.5; set ytics 0.5
@@ -36,24 +34,11 @@ plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" w
 print sprintf("**Figure 5b.** Profiles of the ellipsoid at x_g = %g for different viscosity ratios: parachutes with", last_x_g), \
   sprintf("a sharp rim at the rear. The pressure drops still differ by %.1f %%.", spread)
 
-eval figure("fig06b", 17, 4.8)
-eval view(-5.2, 13, -2, 2)
-set xtics 1; set ytics 1
-positions = sprintf("-4 -1 1.2 3.5 6 9 %g", last_x_g)
-plot @wall, for [p in positions] for [side=-1:1:2] \
-    profiles(one) using (at_x_g(p, "x")):(side * column("r")) with @capsule_fill, \
-  for [p in positions] for [side=-1:1:2] \
-    profiles(one) using (at_x_g(p, "x")):(side * column("r")) with lines linetype 1
-print sprintf("**Figure 6b.** Successive profiles of the ellipsoid for λ = %g.", parameter(one, "flow.viscosity_ratio")), \
-  "It nearly plugs the pore at the entrance:", \
-  sprintf("the film is thinnest, %.3f pore radii, at x_g = %.2f;", film_min_y, film_pos_min_y), \
-  sprintf("the parachute at the end leaves %.3f.", result(one, "min_film"))
-
 eval figure("fig10", 12, 8)
 set multiplot
 set xrange [-4:12]; set yrange [0:50]
 set xlabel x_g_label; set ylabel pressure_label
-set key at 11.8, 0 right bottom spacing 1
+set key at 11.9, 1.5 right bottom maxrows 3 width -2
 plot for [i=1:count] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i) @marks
 set origin 0.52, 0.5; set size 0.46, 0.46
 set xrange [9:12]; set yrange [lowest - 0.3:lowest + 1.3]

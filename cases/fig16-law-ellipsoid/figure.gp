@@ -7,7 +7,7 @@ neo_hookean = run(int(of("neo-hookean"))); skalak = run(int(of("skalak")))
 eval figure("fig16", 8.6, 6)
 eval view(last_x_g - 1.4, last_x_g + 1.8, 0, 1.3)
 set xtics 0.5; set ytics 0.5
-set key at last_x_g + 0.95, 0.6
+set key at last_x_g + 0.98, 0.48
 plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" with lines linetype i title name(i)
 print "**Figure 16.** Steady profiles of two ellipsoids that differ in their membrane's law alone, at x_g =", \
   sprintf("%g. The neo-Hookean one is stretched by up to %.0f %%,", last_x_g, 100 * (result(neo_hookean, "max_stretch") - 1)), \

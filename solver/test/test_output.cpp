@@ -223,7 +223,7 @@ BOOST_AUTO_TEST_CASE(results_of_a_run) {
   const std::string collection = content_of(directory.path / "membrane.pvd");
   BOOST_TEST(collection.find("membrane_0001.vtp") != std::string::npos);
   const std::string surface = content_of(directory.path / "membrane_0001.vtp");
-  BOOST_TEST(surface.find("NumberOfPoints=\"144\" NumberOfPolys=\"96\"") != std::string::npos);
+  BOOST_TEST(surface.find("NumberOfPoints=\"96\" NumberOfStrips=\"2\"") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(what_belongs_to_the_pore_is_null_without_one) {
