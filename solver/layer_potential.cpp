@@ -97,7 +97,7 @@ double near_factor(Eigen::Index points, double tolerance) {
 // positions are rounding errors. The double layer has the square of the distance below e.n, the single layer
 // d itself below components of e.
 double too_near(Layer layer) {
-  return layer == Layer::single ? 1e-4 : 1e-2;
+  return layer == Layer::single ? 1e-4 : 2e-3;
 }
 
 // Weights of the panels that hold or touch a target on the curve. The kernel is
