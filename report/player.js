@@ -1,6 +1,8 @@
 // The player: one run, the capsule in its pore at a place x_g, coloured by a field on the membrane, and a cursor on the
-// pressure-drop curve. The data are written into the page by report.cpp:
-//   runs[]: name, opening_angle (radians), series {x_g, pressure_drop}, frames[] {time, x_g, x[], r[], fields[][]}
+// pressure-drop curve. The data are written into the page by report_page.cpp:
+//   fields[]: name, neutral (the value of the undeformed membrane)
+//   runs[]: case, name, opening_angle (radians), series {x_g, pressure_drop},
+//     frames[] {time, x_g, x[], r[], fields[][]}
 "use strict";
 (() => {
   const { fields, runs } = JSON.parse(document.getElementById("player-data").textContent);
@@ -12,8 +14,13 @@
     by_id("player-controls").hidden = true;
     return;
   }
-  runs.forEach((run, i) => run_choice.add(new Option(run.name, i)));
-  fields.forEach((field, i) => colour_choice.add(new Option(field, i)));
+  runs.forEach((run, i) => {
+    if (i === 0 || run.case !== runs[i - 1].case)
+      run_choice.append(Object.assign(document.createElement("optgroup"), { label: run.case }));
+    run_choice.lastElementChild.append(new Option(run.name, i));
+  });
+  run_choice.value = 0;
+  fields.forEach((field, i) => colour_choice.add(new Option(field.name, i)));
 
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const mix = (a, b, share) => a + (b - a) * share;
@@ -24,11 +31,26 @@
     const parts = colour_stops[lower].map((part, i) => Math.round(mix(part, colour_stops[lower + 1][i], place - lower)));
     return `rgb(${parts.join(",")})`;
   };
-  by_id("scale-bar").style.background = `linear-gradient(to right, ${[0, 0.5, 1].map(colour_of).join(",")})`;
-
   const chosen_run = () => runs[run_choice.value];
   const range_of = (values) => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
-  const field_range = () => range_of(chosen_run().frames.flatMap((frame) => frame.fields[colour_choice.value]));
+  // What the run's field takes, and the neutral value in its middle: as many colours above as below.
+  const field_scale = () => {
+    const [low, high] = range_of(chosen_run().frames.flatMap((frame) => frame.fields[colour_choice.value]));
+    const { neutral } = fields[colour_choice.value];
+    const reach = Math.max(Math.abs(low - neutral), Math.abs(high - neutral)) || 1;
+    return { low: Math.min(low, neutral), high: Math.max(high, neutral), neutral,
+             share: (value) => 0.5 + (value - neutral) / (2 * reach) };
+  };
+  const draw_scale = ({ low, high, neutral, share }) => {
+    by_id("scale-low").textContent = low.toFixed(2);
+    by_id("scale-high").textContent = high.toFixed(2);
+    const inside = low < neutral && neutral < high;
+    by_id("scale-neutral").textContent = inside ? neutral : "";
+    by_id("scale-neutral").style.visibility = inside ? "visible" : "hidden";
+    by_id("scale-neutral").style.left = `${(100 * (neutral - low)) / (high - low || 1)}%`;
+    const stops = [0, 0.25, 0.5, 0.75, 1].map((part) => colour_of(share(mix(low, high, part))));
+    by_id("scale-bar").style.background = `linear-gradient(to right, ${stops.join(",")})`;
+  };
 
   // The last index at which the rising values are not beyond the place, and the share of the way to the next.
   const locate = (values, place) => {
@@ -58,6 +80,22 @@
     return { pen, width, height };
   };
 
+  // Text in the middle of a place; the letter after _ is set lower, that after ^ higher.
+  const write_label = (pen, text, x, y) => {
+    const parts = [...text.matchAll(/([_^]?)([^_^])/g)].map(([, mark, letter]) => {
+      pen.font = `${mark ? 10 : 13}px sans-serif`;
+      return { mark, letter, width: pen.measureText(letter).width };
+    });
+    pen.textAlign = "left";
+    let at = x - parts.reduce((sum, { width }) => sum + width, 0) / 2;
+    for (const { mark, letter, width } of parts) {
+      pen.font = `${mark ? 10 : 13}px sans-serif`;
+      pen.fillText(letter, at, y + { "": 0, _: 4, "^": -5 }[mark]);
+      at += width;
+    }
+    pen.font = "13px sans-serif";
+  };
+
   const draw_pore = (place) => {
     const { pen, width, height } = open_canvas(pore);
     const scale = height / 4.4; // radii from wall to wall, and of the solid around
@@ -65,21 +103,33 @@
     const at = (x, r) => [(x - left) * scale, middle - r * scale];
     const wall_r = (x) => x < 0 ? Math.sqrt(1 + (x * Math.tan(chosen_run().opening_angle)) ** 2) : 1;
     pen.fillStyle = style("--solid");
+    pen.strokeStyle = style("--ink");
+    pen.lineWidth = 1.5;
     for (const side of [1, -1]) {
-      pen.beginPath();
-      pen.moveTo(0, middle - side * height);
+      const wall = new Path2D();
       for (let pixel = 0; pixel <= width; pixel++)
-        pen.lineTo(pixel, middle - side * Math.min(height, wall_r(left + pixel / scale) * scale));
-      pen.lineTo(width, middle - side * height);
-      pen.fill();
+        wall.lineTo(pixel, middle - side * Math.min(height, wall_r(left + pixel / scale) * scale));
+      const solid = new Path2D(wall);
+      solid.lineTo(width, middle - side * height);
+      solid.lineTo(0, middle - side * height);
+      pen.fill(solid);
+      pen.stroke(wall);
     }
-    const frame = frame_at(place), [low, high] = field_range();
+    pen.setLineDash([12, 4, 2, 4]);
+    pen.strokeStyle = style("--faint");
+    pen.lineWidth = 1;
+    pen.beginPath();
+    pen.moveTo(0, middle);
+    pen.lineTo(width, middle);
+    pen.stroke();
+    pen.setLineDash([]);
+    const frame = frame_at(place), scale_of_field = field_scale();
     pen.beginPath();
     frame.x.forEach((x, i) => pen.lineTo(...at(x, frame.r[i])));
     [...frame.x.keys()].reverse().forEach((i) => pen.lineTo(...at(frame.x[i], -frame.r[i])));
     pen.fillStyle = style("--card");
     pen.fill();
-    pen.lineWidth = 3;
+    pen.lineWidth = 4;
     pen.lineCap = "round";
     for (const side of [1, -1])
       for (let i = 0; i + 1 < frame.x.length; i++) {
@@ -87,15 +137,14 @@
         pen.moveTo(...at(frame.x[i], side * frame.r[i]));
         pen.lineTo(...at(frame.x[i + 1], side * frame.r[i + 1]));
         const mean = (frame.field[i] + frame.field[i + 1]) / 2;
-        pen.strokeStyle = colour_of(high > low ? (mean - low) / (high - low) : 0.5);
+        pen.strokeStyle = colour_of(scale_of_field.share(mean));
         pen.stroke();
       }
-    by_id("scale-low").textContent = low.toFixed(2);
-    by_id("scale-high").textContent = high.toFixed(2);
+    draw_scale(scale_of_field);
     return frame.time;
   };
 
-  const margin = { left: 52, right: 12, top: 12, bottom: 40 };
+  const margin = { left: 56, right: 12, top: 12, bottom: 40 };
   const span = () => range_of(chosen_run().series.x_g);
   const draw_curve = (place) => {
     const { pen, width, height } = open_canvas(curve);
@@ -113,16 +162,15 @@
     pen.textAlign = "center";
     for (let x = 2 * Math.ceil(left / 2); x <= right; x += 2)
       pen.fillText(x, at_x(x), height - margin.bottom + 16);
-    pen.fillText("x_g / R_t", (margin.left + width - margin.right) / 2, height - 6);
+    write_label(pen, "x_g / R_t", (margin.left + width - margin.right) / 2, height - 8);
     pen.textAlign = "right";
     const step = 10 ** Math.floor(Math.log10(top)) / (top / 10 ** Math.floor(Math.log10(top)) > 4 ? 1 : 2);
     for (let y = 0; y <= top; y += step)
       pen.fillText(+y.toPrecision(6), margin.left - 6, at_y(y) + 4);
     pen.save();
-    pen.translate(12, (height - margin.bottom + margin.top) / 2);
+    pen.translate(16, (height - margin.bottom + margin.top) / 2);
     pen.rotate(-Math.PI / 2);
-    pen.textAlign = "center";
-    pen.fillText("ΔP", 0, 0);
+    write_label(pen, "ΔP / (μQ/πR_t^3)", 0, 0);
     pen.restore();
     pen.beginPath();
     x_g.forEach((x, i) => pen.lineTo(at_x(x), at_y(pressure_drop[i])));
@@ -146,8 +194,8 @@
   const draw = () => {
     const place = slider.valueAsNumber;
     const time = draw_pore(place), pressure_drop = draw_curve(place);
-    by_id("readout").textContent =
-      `x_g = ${place.toFixed(2)}, t = ${time.toFixed(2)}, ΔP = ${pressure_drop.toFixed(3)}`;
+    by_id("readout").innerHTML =
+      `x<sub>g</sub> = ${place.toFixed(2)}, t = ${time.toFixed(2)}, ΔP = ${pressure_drop.toFixed(3)}`;
     slider.setAttribute("aria-valuetext", by_id("readout").textContent);
   };
 

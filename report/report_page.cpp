@@ -5,6 +5,7 @@
 // them. What a directory has not computed yet is left out. The page's frame, style and player lie beside this file.
 #include "output.hpp"
 #include "run_values.hpp"
+#include "text.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,8 +100,10 @@ std::string base64(const std::string &bytes) {
   return text;
 }
 
-// A cell that starts with a verdict wears its colour.
-std::string table_cell(const std::string &text) {
+// A cell that starts with a verdict wears its colour; a column of published values looks different from ours.
+std::string table_cell(const std::string &column, const std::string &text) {
+  if (column.starts_with("published"))
+    return fmt::format("<td class=\"published\">{}</td>", escaped(text));
   const std::array<std::pair<std::string, std::string>, 3> verdicts = {
       {{"agrees", "agrees"}, {"differs", "differs"}, {"not decidable", "open"}}};
   for (const auto &[verdict, style] : verdicts)
@@ -109,19 +112,33 @@ std::string table_cell(const std::string &text) {
   return fmt::format("<td>{}</td>", escaped(text));
 }
 
-std::string table(const fs::path &csv) {
+// Of a file's columns those that are named, in this order, or all.
+std::string table(const fs::path &csv, const std::vector<std::string> &wanted = {}) {
   const auto rows = read_table(csv);
+  std::vector<std::size_t> columns;
+  for (const std::string &name : wanted)
+    columns.push_back(static_cast<std::size_t>(std::ranges::find(rows.front(), name) - rows.front().begin()));
+  for (std::size_t k = 0; wanted.empty() && k < rows.front().size(); ++k)
+    columns.push_back(k);
   std::string html = "<div class=\"table\" tabindex=\"0\"><table>\n<thead><tr>";
-  for (const std::string &name : rows.front())
-    html += fmt::format("<th scope=\"col\">{}</th>", escaped(name));
+  for (const std::size_t k : columns)
+    html += fmt::format("<th scope=\"col\">{}</th>", escaped(rows.front().at(k)));
   html += "</tr></thead>\n<tbody>\n";
   for (std::size_t i = 1; i < rows.size(); ++i) {
     html += "<tr>";
-    for (const std::string &text : rows[i])
-      html += table_cell(text);
+    for (const std::size_t k : columns)
+      html += table_cell(rows.front()[k], rows[i].at(k));
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
+}
+
+// What the page shows of the ledger; tables/ledger.csv has the rest.
+std::string ledger() {
+  const fs::path csv = "tables/ledger.csv";
+  return fs::exists(csv) ? table(csv, {"claim", "where", "statement", "verdict", "published", "converged",
+                                       "own error", "distance", "reading and evidence"})
+                         : "<p>Not computed yet.</p>";
 }
 
 // The figures of a case or study, each with its finding, and how its numbers compare.
@@ -139,6 +156,15 @@ std::string chapter(const fs::path &directory) {
                         table(csv));
   return html.empty() ? ""
                       : fmt::format("<article id=\"{0}\"><h3>{0}</h3>\n{1}</article>\n", escaped(id), html);
+}
+
+// The tables of the paper, computed beside published: tables/table<n>.csv, as the cases' figures leave them.
+std::string paper_tables() {
+  std::string html;
+  for (const fs::path &csv : files_of("tables", ".csv"))
+    if (const std::string id = csv.stem(); id.size() == 6 && id.starts_with("table"))
+      html += fmt::format("<h3 id=\"{0}\">Table {1}</h3>\n{2}", id, id.back(), table(csv));
+  return html;
 }
 
 // The finished runs of all cases, with their results' directories; a run that several cases share counts once.
@@ -200,11 +226,14 @@ Json rounded(const std::vector<double> &values) {
   return numbers;
 }
 
-const std::vector<std::pair<std::string, std::string>> player_fields = {
-    {"stretch_meridional", "stretch along the meridian"},
-    {"stretch_azimuthal", "stretch around the axis"},
-    {"tension_meridional", "tension along the meridian"},
-    {"tension_azimuthal", "tension around the axis"}};
+struct PlayerField {
+  std::string column, name;
+  double neutral; // the value of the undeformed membrane
+};
+const std::vector<PlayerField> player_fields = {{"stretch_meridional", "stretch along the meridian", 1},
+                                                {"stretch_azimuthal", "stretch around the axis", 1},
+                                                {"tension_meridional", "tension along the meridian", 0},
+                                                {"tension_azimuthal", "tension around the axis", 0}};
 
 // The rows at which the profiles of a run begin, in the order in which they were taken, and the end of the last.
 std::vector<std::size_t> profile_bounds(const std::vector<double> &time) {
@@ -229,13 +258,26 @@ Json player_frame(const capsule::Columns &profiles, std::size_t first, std::size
     return rounded(thinned);
   };
   Json fields = Json::array();
-  for (const auto &[column, name] : player_fields)
-    fields.push_back(part(column));
+  for (const PlayerField &field : player_fields)
+    fields.push_back(part(field.column));
   return {{"time", rounded(profiles.at("time")[first])},
           {"x_g", rounded(profiles.at("x_g")[first])},
           {"x", part("x")},
           {"r", part("r")},
           {"fields", fields}};
+}
+
+// Which capsule in which flow: "sphere, Skalak C = 0, R_eq = 0.9, ε = 0.04, λ = 10".
+std::string capsule_name(const Json &parameters) {
+  const auto number = [&](const char *key) { return capsule::number_text(parameters.at(key).get<double>()); };
+  const double aspect_ratio = parameters.at("capsule.aspect_ratio").get<double>();
+  std::string name = aspect_ratio == 1 ? "sphere" : "spheroid A/B = " + number("capsule.aspect_ratio");
+  name += parameters.at("membrane.law") == "skalak" ? ", Skalak C = " + number("membrane.dilatation")
+                                                    : ", neo-Hookean";
+  name += fmt::format(", R_eq = {}, ε = {}, λ = {}", number("capsule.radius"),
+                      number("flow.capillary_number"), number("flow.viscosity_ratio"));
+  const Json &nodes = parameters.at("mesh.membrane");
+  return nodes.is_null() ? name : fmt::format("{}, {} nodes", name, nodes.dump());
 }
 
 // The runs that keep enough profiles to be seen in motion.
@@ -254,17 +296,17 @@ std::string player_data(const std::vector<fs::path> &runs) {
     const Json &title = parameters.at("title");
     const capsule::Columns series = capsule::read_columns(run / "series.csv");
     played.push_back(
-        {{"name",
-          title.is_null() ? run_name(run) : fmt::format("{}: {}", title.get<std::string>(), run_name(run))},
+        {{"case", title.is_null() ? run.parent_path().filename().string() : title.get<std::string>()},
+         {"name", capsule_name(parameters)},
          {"opening_angle", parameters.at("pore.opening_angle_deg").get<double>() * std::numbers::pi / 180},
          {"series",
           {{"x_g", rounded(series.at("x_g"))}, {"pressure_drop", rounded(series.at("pressure_drop"))}}},
          {"frames", frames}});
   }
-  Json names = Json::array();
-  for (const auto &[column, name] : player_fields)
-    names.push_back(name);
-  return Json({{"fields", names}, {"runs", played}}).dump();
+  Json fields = Json::array();
+  for (const PlayerField &field : player_fields)
+    fields.push_back({{"name", field.name}, {"neutral", field.neutral}});
+  return Json({{"fields", fields}, {"runs", played}}).dump();
 }
 
 // The frame with every @name@ replaced.
@@ -286,16 +328,16 @@ void write_page(const fs::path &page, const std::vector<fs::path> &directories) 
   for (const fs::path &directory : directories)
     (directory.parent_path().filename() == "cases" ? cases : studies) += chapter(directory);
   const std::vector<fs::path> runs = finished_runs(directories);
-  const fs::path ledger = "tables/ledger.csv", source = REPORT_SOURCE;
+  const fs::path source = REPORT_SOURCE;
   const std::string html =
-      filled(read_file(source / "page.html"),
-             {{"style", read_file(source / "style.css")},
-              {"script", read_file(source / "player.js")},
-              {"ledger", fs::exists(ledger) ? table(ledger) : "<p>Not computed yet.</p>"},
-              {"cases", cases},
-              {"studies", studies},
-              {"provenance", provenance(runs)},
-              {"player", player_data(runs)}});
+      filled(read_file(source / "page.html"), {{"style", read_file(source / "style.css")},
+                                               {"script", read_file(source / "player.js")},
+                                               {"ledger", ledger()},
+                                               {"tables", paper_tables()},
+                                               {"cases", cases},
+                                               {"studies", studies},
+                                               {"provenance", provenance(runs)},
+                                               {"player", player_data(runs)}});
   capsule::write_atomically(page, html);
 }
 

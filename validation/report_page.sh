@@ -1,6 +1,6 @@
 #!/bin/sh
 # The report's page in a browser without a screen: it loads, the slider and the curve move the capsule, the keyboard
-# does, another run can be chosen, it fits a narrow screen, nothing is fetched and nothing complains.
+# does, it plays, another run can be chosen, it fits a narrow screen, nothing is fetched and nothing complains.
 #   report_page.sh CAPSULE     with the program `report_page` beside it
 # Skipped (77) where Debian's chromium-driver is missing. Pictures: report-page-*.png in the current directory.
 set -eu
@@ -81,7 +81,13 @@ drawing='document.getElementById("pore").toDataURL()'
 call POST "$at/url" "{\"url\": \"file://$place/page.html\"}" > /dev/null
 expect "the page loads" "A capsule enters a pore: report" "$(script document.title)"
 expect "both runs can be chosen" 2 "$(script 'document.getElementById("run").length')"
-expect "it starts before the mouth" "x_g = -1.00" "$(script "$readout" | cut -d, -f1)"
+expect "it starts before the mouth" "xg = -1.00" "$(script "$readout" | cut -d, -f1)"
+expect "the solid around the pore is drawn" '#c9ced4' "$(script '(() => {
+  const pore = document.getElementById("pore"), corner = pore.getContext("2d").getImageData(pore.width - 3, 3, 1, 1).data;
+  return "#" + [...corner.slice(0, 3)].map((part) => part.toString(16)).join("") })()')"
+expect "the colours have a scale" true "$(script '(() => {
+  const end = (which) => Number(document.getElementById("scale-" + which).textContent);
+  return end("low") <= 1 && 1 < end("high") })()')"
 picture load
 
 drag() { # element, from and to: horizontal shares of its half width, from its centre
@@ -95,7 +101,7 @@ drag() { # element, from and to: horizontal shares of its half width, from its c
 call POST "$at/execute/sync" '{"script": "document.getElementById(\"player\").scrollIntoView()", "args": []}' > /dev/null
 before=$(script "$drawing" | cksum)
 drag place 0 0.9
-test "$(script "$readout" | cut -d, -f1)" != "x_g = -1.00" || fail "the slider does not follow the mouse"
+test "$(script "$readout" | cut -d, -f1)" != "xg = -1.00" || fail "the slider does not follow the mouse"
 test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not follow the slider"
 echo "ok: dragging the slider moves the capsule"
 before=$(script "$readout")
@@ -114,6 +120,10 @@ before=$(script "$drawing" | cksum)
 call POST "$at/element/$(element colour)/value" '{"text": "\uE015"}' > /dev/null
 test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not follow the colour"
 echo "ok: run and colour change the picture"
+script 'document.getElementById("place").value = -2' > /dev/null
+call POST "$at/element/$(element play)/click" '{}' > /dev/null
+sleep 0.5
+expect "playing moves the capsule" true "$(script "document.getElementById('place').valueAsNumber > -2")"
 picture dragged
 
 call POST "$at/goog/cdp/execute" '{"cmd": "Emulation.setDeviceMetricsOverride",

@@ -31,7 +31,7 @@ set arrow from exit_x, -1 to exit_x, 1 nohead linewidth 1.5
 set label "{/:Italic O}" at 0.15, -0.4 left
 set label "{/:Italic S}_P" at exit_x + 0.15, 0.5 left
 set label "{/:Italic S}_B" at 2, 1.45 center front
-set label "to {/:Italic S}_E" at -6.3, -3.1 left
+set label "to {/:Italic S}_E" at -6.3, -2.95 left
 set label "{/:Italic M}" at start + 0.4, -1.3 left
 set arrow from start - 0.9, -1.6 to start - 0.05, -0.5 nohead linewidth 0.5 front
 set label "Ω_{int}" at start - 1.2, -1.9 center
