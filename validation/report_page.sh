@@ -132,6 +132,7 @@ call POST "$at/goog/cdp/execute" '{"cmd": "Emulation.setEmulatedMedia",
   "params": {"features": [{"name": "prefers-color-scheme", "value": "dark"}]}}' > /dev/null
 expect "it fits a narrow screen" true "$(script 'document.documentElement.scrollWidth <= 360')"
 expect "it is dark where dark is wanted" 'rgb(20, 23, 27)' "$(script 'getComputedStyle(document.body).backgroundColor')"
+script 'document.getElementById("player").scrollIntoView()' > /dev/null
 picture narrow-dark
 
 expect "nothing complains" 0 "$(call POST "$at/se/log" '{"type": "browser"}' | jq '.value | length')"
