@@ -7,7 +7,7 @@
 SHELL := /bin/bash
 
 .DEFAULT_GOAL := build
-.PHONY: help setup build figures tables report atlas sweep test bench paper-numerics clean
+.PHONY: help setup build figures tables report atlas sweep sweep-case test bench paper-numerics clean
 
 help:
 	@echo 'make [build]         build the solver, build/capsule'
@@ -51,8 +51,10 @@ report: build
 atlas: build
 	@cmake --build build --target atlas -- -k 0
 
-sweep: build
-	@sweep/parallel.sh $(or $(CASE),$(error CASE=... names no case)) $(or $(JOBS),100%) $(SSH)
+sweep: sweep-case build
+	@sweep/parallel.sh $(CASE) $(or $(JOBS),100%) $(SSH)
+sweep-case:
+	@[ -n "$(CASE)" ] && [ -e "$(CASE)" ] || { echo "error: CASE=$(CASE) is no case, try CASE=cases/..."; exit 2; }
 
 test: build/build.ninja
 	@cmake --build build
