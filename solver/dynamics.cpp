@@ -93,11 +93,11 @@ Dynamics standard_dynamics(const Case &physics) {
     const FlowSystem::Interaction shape = system->interact(place_in_flow(physics, position));
     const Vector load = membrane_load(*membrane, position);
     FlowState state = system->flow(shape, load, *memory);
-    state.pressure_drop_reciprocal = system->reciprocal_pressure_drop(shape, load, state.velocity);
+    state.pressure_drop_reciprocal = system->reciprocal_pressure_drop(shape, load, state.velocity, *memory);
     return state;
   };
-  dynamics.jacobian = [system, membrane](const Vector &position) -> Matrix {
-    return system->mobility(system->interact(position)) * load_jacobian(*membrane, position);
+  dynamics.jacobian = [system, membrane, memory](const Vector &position) -> Matrix {
+    return system->mobility(system->interact(position), *memory) * load_jacobian(*membrane, position);
   };
   return dynamics;
 }

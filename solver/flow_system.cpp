@@ -53,6 +53,84 @@ Rings rings_of(const Curve &curve) {
           curve.normal_r.data()};
 }
 
+// The last solutions belong to shapes along a smooth way: the new shape as a combination of theirs, by least
+// squares, continues them.
+Vector continued(const FlowSystem::Corrector &corrector, const Vector &position) {
+  if (corrector.positions.empty())
+    return Vector::Zero(position.size());
+  const auto steps = static_cast<Eigen::Index>(corrector.positions.size()) - 1;
+  if (steps == 0)
+    return corrector.solutions[0];
+  Matrix ways(position.size(), steps), changes(position.size(), steps);
+  for (Eigen::Index k = 0; k < steps; ++k) {
+    const auto earlier = static_cast<std::size_t>(k + 1);
+    ways.col(k) = corrector.positions[earlier] - corrector.positions[0];
+    changes.col(k) = corrector.solutions[earlier] - corrector.solutions[0];
+  }
+  Eigen::ColPivHouseholderQR<Matrix> shares(position.size(), steps);
+  shares.setThreshold(1e-3); // what is within noise of a way already taken tells nothing
+  shares.compute(ways);
+  return corrector.solutions[0] + changes * shares.solve(position - corrector.positions[0]);
+}
+
+void remember(const Vector &position, const Vector &solution, FlowSystem::Corrector &corrector) {
+  constexpr std::size_t kept = 4;
+  corrector.positions.insert(corrector.positions.begin(), position);
+  corrector.solutions.insert(corrector.solutions.begin(), solution);
+  if (corrector.positions.size() > kept) {
+    corrector.positions.pop_back();
+    corrector.solutions.pop_back();
+  }
+}
+
+// Generalised conjugate residuals, preconditioned with an earlier shape's inverse and started from the
+// continuation of the last solutions.
+//   residual_of   a guess
+//   apply         the matrix to a direction
+//   matrix        all of it, for a fresh inverse
+template <class Residual, class Apply, class Build>
+Vector solve(const Vector &position, double tolerance, FlowSystem::Corrector &corrector,
+             const Residual &residual_of, const Apply &apply, const Build &matrix) {
+  constexpr int few = 10; // corrections, of which a fresh inverse costs some tens
+  if (corrector.inverse.size() == 0)
+    corrector.set(matrix());
+  Vector solution = continued(corrector, position);
+  for (const bool fresh : {false, true}) {
+    if (fresh)
+      corrector.set(matrix());
+    Vector residual = residual_of(solution);
+    std::vector<Vector> directions, images;
+    double before = 0;
+    for (int k = 0; k <= few; ++k) {
+      Vector direction = corrector.inverse * residual; // nearly the error
+      const double error = direction.cwiseAbs().maxCoeff();
+      if (k > 0)
+        corrector.contraction = std::max(0.9 * corrector.contraction, error / before);
+      if (error * corrector.contraction <= tolerance * (solution + direction).cwiseAbs().maxCoeff()) {
+        solution += direction;
+        // Not measured this time, and the shape moves on from the inverse's.
+        corrector.contraction = std::min(1.0, 1.1 * corrector.contraction);
+        remember(position, solution, corrector);
+        return solution;
+      }
+      before = error;
+      Vector image = apply(direction);
+      for (std::size_t j = 0; j < images.size(); ++j) {
+        const double share = images[j].dot(image);
+        image -= share * images[j];
+        direction -= share * directions[j];
+      }
+      const double norm = image.norm();
+      images.push_back(image / norm);
+      directions.push_back(direction / norm);
+      const double share = images.back().dot(residual);
+      solution += share * directions.back();
+      residual -= share * images.back();
+    }
+  }
+  throw NumericsFailure("unresolved", "the membrane's system does not converge", "try a finer mesh.membrane");
+}
+
 } // namespace
 
 FlowSystem::FlowSystem(const Case &physics, const MeridianBasis &basis, const FlowResolution &resolution)
@@ -190,6 +268,7 @@ FlowSystem::Interaction FlowSystem::interact_in_full(const Vector &position) con
 FlowSystem::Interaction FlowSystem::interact(const Vector &position, bool with_double_layers) const {
   const Eigen::Index n = basis_.size();
   Interaction shape;
+  shape.position = position;
   shape.nodes = {position.head(n), position.tail(n)};
   Curve &membrane = shape.membrane;
   membrane.panel_points = panels_.rule.size();
@@ -355,27 +434,33 @@ Matrix FlowSystem::double_at_wall(const Interaction &shape) const {
   return result;
 }
 
-Matrix FlowSystem::single_layer(const Interaction &shape) const {
+// C A^(-1), empty without a wall.
+RowMatrix FlowSystem::answer_of_wall(const Interaction &shape) const {
+  return has_wall() ? RowMatrix(shape.from_wall * wall_inverse_) : RowMatrix();
+}
+
+Matrix FlowSystem::single_layer(const Interaction &shape, const RowMatrix &answer) const {
   Matrix layer = to_nodes(shape.single_mm, even_[0], odd_[0]);
   if (has_wall())
-    layer -= shape.from_wall * (wall_inverse_ * single_at_wall(shape));
+    layer -= answer * single_at_wall(shape);
   return stokeslet_factor / capillary_number_ * layer;
 }
 
-Matrix FlowSystem::double_layer(const Interaction &shape) const {
+Matrix FlowSystem::double_layer(const Interaction &shape, const RowMatrix &answer) const {
   Matrix layer = to_nodes(shape.double_mm, even_[0], odd_[0]);
   if (has_wall())
-    layer -= shape.from_wall * (wall_inverse_ * double_at_wall(shape));
+    layer -= answer * double_at_wall(shape);
   return layer;
 }
 
 FlowSystem::Layers FlowSystem::layers(const Interaction &shape) const {
-  return {single_layer(shape), double_layer(shape)};
+  const RowMatrix answer = answer_of_wall(shape);
+  return {single_layer(shape, answer), double_layer(shape, answer)};
 }
 
 // beta - (lambda - 1) (D_MM - C A^(-1) D_BM) on nodal velocities.
-Matrix FlowSystem::membrane_operator(const Interaction &shape) const {
-  const Matrix layer = double_layer(shape);
+Matrix FlowSystem::membrane_operator(const Interaction &shape, const RowMatrix &answer) const {
+  const Matrix layer = double_layer(shape, answer);
   return (1 + viscosity_ratio_) / 2 * Matrix::Identity(layer.rows(), layer.cols()) -
          (viscosity_ratio_ - 1) * layer;
 }
@@ -395,26 +480,28 @@ Vector FlowSystem::apply_membrane_operator(const Interaction &shape, const Vecto
   return (1 + viscosity_ratio_) / 2 * velocity - (viscosity_ratio_ - 1) * double_layer;
 }
 
-// Corrections with an earlier shape's inverse; a fresh one when they gain less than a digit each.
-Vector FlowSystem::membrane_velocity(const Interaction &shape, const Vector &right, Memory &memory) const {
-  constexpr double enough = 1e-10;
-  const double scale = right.cwiseAbs().maxCoeff();
-  const auto refresh = [&] { memory.inverse = membrane_operator(shape).partialPivLu().inverse(); };
-  if (memory.inverse.size() == 0)
-    refresh();
-  Vector velocity = memory.inverse * right;
-  double before = scale;
-  for (int k = 0; k < 12; ++k) {
-    const Vector residual = right - apply_membrane_operator(shape, velocity);
-    const double error = residual.cwiseAbs().maxCoeff();
-    if (error <= enough * scale)
-      return velocity;
-    if (error > 0.1 * before)
-      refresh();
-    before = error;
-    velocity += memory.inverse * residual;
-  }
-  throw NumericsFailure("unresolved", "the membrane's system does not converge", "try a finer mesh.membrane");
+void FlowSystem::Corrector::set(const Matrix &matrix) {
+  inverse = matrix.partialPivLu().inverse();
+  contraction = 1;
+}
+
+// right is the velocity without what v does and without the wall, at_wall what is on the wall without v: the
+// wall's answer to both is found at once.
+Vector FlowSystem::membrane_velocity(const Interaction &shape, const Vector &right, const Vector &at_wall,
+                                     Memory &memory) const {
+  const double excess = viscosity_ratio_ - 1;
+  return solve(
+      shape.position, resolution_.solver_tolerance, memory.velocity,
+      [&](const Vector &velocity) {
+        Vector residual =
+            right + excess * (shape.double_mm * at_panels(velocity)) - (1 + viscosity_ratio_) / 2 * velocity;
+        if (has_wall())
+          residual -=
+              shape.from_wall * (wall_inverse_ * (at_wall + excess * double_at_wall(shape, velocity)));
+        return residual;
+      },
+      [&](const Vector &velocity) { return apply_membrane_operator(shape, velocity); },
+      [&] { return membrane_operator(shape, answer_of_wall(shape)); });
 }
 
 FlowState FlowSystem::flow(const Interaction &shape, const Vector &load, Memory &memory) const {
@@ -422,14 +509,14 @@ FlowState FlowSystem::flow(const Interaction &shape, const Vector &load, Memory 
   FlowState state;
   state.velocity = shape.empty_velocity + shape.single_mm * strength;
   Vector at_wall; // b of the head comment
-  if (has_wall()) {
+  if (has_wall())
     at_wall = stokeslet_factor / capillary_number_ * single_at_wall(shape, load);
-    state.velocity -= shape.from_wall * (wall_inverse_ * at_wall);
-  }
   if (has_inner_flow()) {
-    state.velocity = membrane_velocity(shape, state.velocity, memory);
+    state.velocity = membrane_velocity(shape, state.velocity, at_wall, memory);
     if (has_wall())
       at_wall += (viscosity_ratio_ - 1) * double_at_wall(shape, state.velocity);
+  } else if (has_wall()) {
+    state.velocity -= shape.from_wall * (wall_inverse_ * at_wall);
   }
   if (has_wall())
     state.pressure_drop = wall_inverse_.row(wall_.size()).dot(at_wall);
@@ -455,26 +542,42 @@ Vector FlowSystem::outer_velocity(const Targets &points, const Interaction &shap
   return velocity;
 }
 
-Matrix FlowSystem::mobility(const Interaction &shape) const {
-  const Matrix single = single_layer(shape);
-  return has_inner_flow() ? Matrix(membrane_operator(shape).partialPivLu().solve(single)) : single;
+Matrix FlowSystem::mobility(const Interaction &shape, Memory &memory) const {
+  const RowMatrix answer = answer_of_wall(shape);
+  const Matrix single = single_layer(shape, answer);
+  if (!has_inner_flow())
+    return single;
+  memory.velocity.set(membrane_operator(shape, answer));
+  return memory.velocity.inverse * single;
+}
+
+// sigma_e n from v_e on the membrane: v_e/2 = S t/(8 pi) + D v_e inside; t is free up to a pressure.
+Vector FlowSystem::empty_traction(const Interaction &shape, Memory &memory) const {
+  Vector normal(2 * basis_.size());
+  normal << shape.on_nodes.normal_x, shape.on_nodes.normal_r;
+  const Vector weighted = normal.cwiseProduct(shape.on_nodes.area.replicate(2, 1));
+  const Vector known = 0.5 * shape.empty_velocity - shape.double_mm * at_panels(shape.empty_velocity);
+  const auto apply = [&](const Vector &traction) {
+    return Vector(stokeslet_factor * (shape.single_mm * at_panels(traction)) +
+                  normal * weighted.dot(traction));
+  };
+  return solve(
+      shape.position, resolution_.solver_tolerance, memory.traction,
+      [&](const Vector &traction) { return Vector(known - apply(traction)); }, apply,
+      [&]() -> Matrix {
+        return stokeslet_factor * to_nodes(shape.single_mm, even_[0], odd_[0]) +
+               normal * weighted.transpose();
+      });
 }
 
 double FlowSystem::reciprocal_pressure_drop(const Interaction &shape, const Vector &load,
-                                            const Vector &velocity) const {
+                                            const Vector &velocity, Memory &memory) const {
   // int f dA = 2 pi sum area f at the nodes
   const Vector area2 = shape.on_nodes.area.replicate(2, 1);
   double sum = -(load.array() * shape.empty_velocity.array() * area2.array()).sum() / capillary_number_;
   if (has_inner_flow()) {
-    // sigma_e n from v_e on the membrane: v_e/2 = S t/(8 pi) + D v_e inside; t is free up to a pressure.
-    Vector normal(2 * basis_.size());
-    normal << shape.on_nodes.normal_x, shape.on_nodes.normal_r;
-    Matrix single = stokeslet_factor * to_nodes(shape.single_mm, even_[0], odd_[0]);
-    single += normal * (normal.array() * area2.array()).matrix().transpose();
-    const Vector known =
-        0.5 * shape.empty_velocity - to_nodes(shape.double_mm, even_[0], odd_[0]) * shape.empty_velocity;
-    const Vector traction = single.partialPivLu().solve(known);
-    sum += (viscosity_ratio_ - 1) * (velocity.array() * traction.array() * area2.array()).sum();
+    sum += (viscosity_ratio_ - 1) *
+           (velocity.array() * empty_traction(shape, memory).array() * area2.array()).sum();
   }
   return 2 * sum;
 }

@@ -26,9 +26,10 @@ struct FlowResolution {
   int membrane_panel_points = 12;
   double membrane_panel = 0.25; // largest panel in zeta
   int wall_panel_points = 12;
-  double wall_panel = 0.75;     // largest panel in the tube
-  double lip_panel = 0.02;      // panel at the lip
-  double near_tolerance = 1e-8; // of near panels
+  double wall_panel = 0.75;        // largest panel in the tube
+  double lip_panel = 0.02;         // panel at the lip
+  double near_tolerance = 1e-8;    // of near panels
+  double solver_tolerance = 1e-10; // of the velocities that lambda != 1 leaves to an iteration, relative
 };
 
 class FlowSystem {
@@ -43,6 +44,7 @@ public:
     Curve membrane; // on panels
     Curve on_nodes; // with the rule on the nodes
     Targets nodes;
+    Vector position;                // the same, 2N
     RowMatrix single_mm, double_mm; // to the membrane's nodes (2N) from its quadrature points (2Q)
     RowMatrix from_wall;            // to the membrane's nodes from the forces of wall points and P'
     struct Difference {             // of a kernel from what stands in from_wall
@@ -60,11 +62,20 @@ public:
   // With both layers, whatever lambda.
   Interaction interact_in_full(const Vector &position) const;
 
-  // What lambda != 1 carries from one shape to the next: the inverse of an earlier membrane operator, which
-  // turns the new one into a few corrections. Empty at the start; the velocity is the same with any, to
-  // 1e-10.
-  struct Memory {
+  // How a system that changes with the shape is solved again and again: the inverse of an earlier matrix
+  // turns the new system into a few corrections, and the last solutions, continued to the new shape, are the
+  // first guess.
+  struct Corrector {
     Matrix inverse;
+    double contraction = 1;                   // of an error by a correction
+    std::vector<Vector> positions, solutions; // the latest first
+    void set(const Matrix &matrix);
+  };
+  // What lambda != 1 carries from one shape to the next. Empty at the start; the flow is the same with any, to
+  // the solver's tolerance.
+  struct Memory {
+    Corrector velocity;
+    Corrector traction; // of the empty pore's flow, for the reciprocal route
   };
   // load: nodal q, 2N.
   FlowState flow(const Interaction &shape, const Vector &load, Memory &memory) const;
@@ -72,7 +83,7 @@ public:
   Vector outer_velocity(const Targets &points, const Interaction &shape, const Vector &load,
                         const FlowState &state) const;
   // d velocity/d load for a frozen shape, 2N x 2N.
-  Matrix mobility(const Interaction &shape) const;
+  Matrix mobility(const Interaction &shape, Memory &memory) const;
   // Both layers on nodal densities with what the wall answers, 2N x 2N.
   struct Layers {
     Matrix single; // (S_MM - C A^(-1) S_BM)/(8 pi eps)
@@ -81,7 +92,8 @@ public:
   Layers layers(const Interaction &shape) const;
   // Delta P by the reciprocal theorem, from the load and the empty pore's flow:
   //   pi Delta P = -(1/eps) int q.v_e dA + (lambda - 1) int v.sigma_e n dA.
-  double reciprocal_pressure_drop(const Interaction &shape, const Vector &load, const Vector &velocity) const;
+  double reciprocal_pressure_drop(const Interaction &shape, const Vector &load, const Vector &velocity,
+                                  Memory &memory) const;
 
   // The empty pore at any points inside, 2 n; and its whole pressure drop from the entrance section to the
   // exit.
@@ -110,11 +122,14 @@ private:
   Vector double_at_wall(const Interaction &shape, const Vector &density) const;
   Matrix single_at_wall(const Interaction &shape) const;
   Matrix double_at_wall(const Interaction &shape) const;
-  Matrix single_layer(const Interaction &shape) const; // those of Layers
-  Matrix double_layer(const Interaction &shape) const;
-  Matrix membrane_operator(const Interaction &shape) const;
+  RowMatrix answer_of_wall(const Interaction &shape) const;
+  Matrix single_layer(const Interaction &shape, const RowMatrix &answer) const; // those of Layers
+  Matrix double_layer(const Interaction &shape, const RowMatrix &answer) const;
+  Matrix membrane_operator(const Interaction &shape, const RowMatrix &answer) const;
   Vector apply_membrane_operator(const Interaction &shape, const Vector &velocity) const;
-  Vector membrane_velocity(const Interaction &shape, const Vector &right, Memory &memory) const;
+  Vector empty_traction(const Interaction &shape, Memory &memory) const;
+  Vector membrane_velocity(const Interaction &shape, const Vector &right, const Vector &at_wall,
+                           Memory &memory) const;
   Vector at_panels(const Vector &nodal) const;
 
   double capillary_number_;

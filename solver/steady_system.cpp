@@ -195,7 +195,7 @@ FlowState SteadySystem::flow(const Vector &position) const {
   const FlowSystem::Interaction shape = flow_->interact(position);
   const Vector load = membrane_load(membrane_, position) / capillary_number_;
   FlowState state = flow_->flow(shape, load, unused);
-  state.pressure_drop_reciprocal = flow_->reciprocal_pressure_drop(shape, load, state.velocity);
+  state.pressure_drop_reciprocal = flow_->reciprocal_pressure_drop(shape, load, state.velocity, unused);
   return state;
 }
 

@@ -133,7 +133,8 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_in_a_tube) {
     const FlowSystem system(physics, basis, {});
     const Vector position = sphere(basis, row.a, 7);
     const auto shape = system.interact(position);
-    const Matrix mobility = system.mobility(shape);
+    FlowSystem::Memory memory;
+    const Matrix mobility = system.mobility(shape, memory);
     // Unknown load and speed: M q - U e_x = -v_e, no force; a pressure inside is free, so q.n is pinned.
     Vector area(n);
     area = basis.weights.array() * row.a * position.tail(n).array();
@@ -151,11 +152,10 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_in_a_tube) {
     const Vector solution = matrix.partialPivLu().solve(right);
     const Vector load = solution.head(2 * n);
     BOOST_TEST(std::abs(solution[2 * n] - row.v_g) < 1e-7);
-    FlowSystem::Memory memory;
     const FlowState state = system.flow(shape, load, memory);
     BOOST_TEST(std::abs(state.pressure_drop - row.pressure_drop) < 1e-6 * (1 + row.pressure_drop));
-    BOOST_TEST(std::abs(system.reciprocal_pressure_drop(shape, load, state.velocity) - row.pressure_drop) <
-               1e-6 * (1 + row.pressure_drop));
+    BOOST_TEST(std::abs(system.reciprocal_pressure_drop(shape, load, state.velocity, memory) -
+                        row.pressure_drop) < 1e-6 * (1 + row.pressure_drop));
   }
 }
 
@@ -175,9 +175,9 @@ BOOST_AUTO_TEST_CASE(pressure_drop_by_two_routes) {
       const auto shape = system.interact(position);
       FlowSystem::Memory memory;
       const FlowState state = system.flow(shape, load, memory);
-      BOOST_TEST(
-          std::abs(state.pressure_drop - system.reciprocal_pressure_drop(shape, load, state.velocity)) <
-          2e-6 * (1 + std::abs(state.pressure_drop)));
+      BOOST_TEST(std::abs(state.pressure_drop -
+                          system.reciprocal_pressure_drop(shape, load, state.velocity, memory)) <
+                 2e-6 * (1 + std::abs(state.pressure_drop)));
     }
 }
 
