@@ -158,6 +158,64 @@ BOOST_AUTO_TEST_CASE(wrinkles_stop_a_membrane_without_bending_stiffness) {
   BOOST_TEST(outcome.message.find("bending_ratio") != std::string::npos);
 }
 
+// Nodes that were chosen from the accuracy are half as many again after wrinkles, once; an interrupted march goes on
+// with those it had. Given nodes stay.
+BOOST_AUTO_TEST_CASE(wrinkles_on_chosen_nodes_begin_again_on_more) {
+  Case physics;
+  physics.accuracy = 1e-2;
+  physics.capsule.radius = 0.8;
+  physics.capsule.start_x = -2.5;
+  physics.flow.capillary_number = 0.12;
+  physics.membrane.bending_ratio = 1e-6; // wrinkles on any mesh
+  physics.until.x_g = 4;
+  const int chosen = choose_resolution(physics).membrane_nodes;
+  const int more = 3 * chosen / 2;
+  Case on_more = physics, as_given = physics;
+  on_more.mesh.membrane = more;
+  as_given.mesh.membrane = chosen;
+  const Outcome given = march(as_given, {}, {}), finer = march(on_more, {}, {});
+  BOOST_TEST(given.failure == "wrinkled");
+  BOOST_TEST(given.last.position.size() == 2 * chosen);
+
+  Checkpoint saved;
+  bool begun_again = false;
+  Control control;
+  long before = 0;
+  control.progress = [&](const SeriesRow &, long steps) {
+    begun_again = begun_again || steps < before;
+    before = steps;
+  };
+  const Outcome automatic = march(physics, {}, control);
+  BOOST_TEST(begun_again);
+  BOOST_TEST(automatic.failure == "wrinkled");
+  BOOST_TEST(automatic.membrane_nodes == more);
+  const auto same = [&](const Outcome &one, const Outcome &other) {
+    BOOST_TEST(one.last.steps == other.last.steps);
+    BOOST_REQUIRE(one.last.series.size() == other.last.series.size());
+    for (std::size_t k = 0; k < one.last.series.size(); ++k) {
+      BOOST_TEST(one.last.series[k].time == other.last.series[k].time);
+      BOOST_TEST(one.last.series[k].pressure_drop == other.last.series[k].pressure_drop);
+    }
+  };
+  same(automatic, finer);
+
+  Case tight = physics; // many steps: the second march, too, passes a checkpoint
+  tight.time.tolerance = 1e-9;
+  const Outcome whole = march(tight, {}, {});
+  BOOST_TEST(whole.membrane_nodes == more);
+  Control stopping;
+  bool stop = false;
+  stopping.save = [&](const Checkpoint &checkpoint) {
+    saved = checkpoint;
+    stop = checkpoint.position.size() == 2 * more;
+  };
+  stopping.interrupted = [&] { return stop; };
+  BOOST_REQUIRE((march(tight, {}, stopping).status == Status::interrupted));
+  const Outcome resumed = march(tight, saved, {});
+  BOOST_TEST(resumed.membrane_nodes == more);
+  same(resumed, whole);
+}
+
 // A neo-Hookean capsule has no steady state in a strong extension.
 BOOST_AUTO_TEST_CASE(runaway_is_reported_as_unbounded) {
   Case physics = in_extension(LawName::neo_hookean, 0, 1, 1);
