@@ -52,18 +52,19 @@ struct Condition {
   double contraction;         // of a correction with the inverse of a shape before
 };
 
-// memory.inverse of a first shape is the operator's own inverse.
+// What a memory's first velocity leaves is the operator's own inverse.
 Condition condition(const FlowSystem &system, const Shape &shape, const Vector &position,
                     const Vector &before) {
   FlowSystem::Memory here;
   FlowSystem::Memory there;
   flow_of(system, shape, position, here);
   flow_of(system, shape, before, there);
-  const Eigen::JacobiSVD<Matrix> singular(here.inverse);
-  const Matrix change = Matrix::Identity(here.inverse.rows(), here.inverse.cols()) -
-                        here.inverse.partialPivLu().solve(there.inverse); // I - A A_before^(-1)
-  return {singular.singularValues()[0] / singular.singularValues()[here.inverse.rows() - 1],
-          1 / here.inverse.eigenvalues().cwiseAbs().maxCoeff(), change.eigenvalues().cwiseAbs().maxCoeff()};
+  const Matrix &own = here.velocity.inverse, &earlier = there.velocity.inverse;
+  const Eigen::JacobiSVD<Matrix> singular(own);
+  const Matrix change =
+      Matrix::Identity(own.rows(), own.cols()) - own.partialPivLu().solve(earlier); // I - A A_before^(-1)
+  return {singular.singularValues()[0] / singular.singularValues()[own.rows() - 1],
+          1 / own.eigenvalues().cwiseAbs().maxCoeff(), change.eigenvalues().cwiseAbs().maxCoeff()};
 }
 
 bool check(const std::string &claim, bool holds) {
