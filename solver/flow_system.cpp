@@ -93,27 +93,20 @@ Vector solve(const Vector &position, double tolerance, FlowSystem::Corrector &co
              const Residual &residual_of, const Apply &apply, const Build &matrix) {
   constexpr int few = 10; // corrections, of which a fresh inverse costs some tens
   if (corrector.inverse.size() == 0)
-    corrector.set(matrix());
+    corrector.inverse = matrix().partialPivLu().inverse();
   Vector solution = continued(corrector, position);
   for (const bool fresh : {false, true}) {
     if (fresh)
-      corrector.set(matrix());
+      corrector.inverse = matrix().partialPivLu().inverse();
     Vector residual = residual_of(solution);
     std::vector<Vector> directions, images;
-    double before = 0;
     for (int k = 0; k <= few; ++k) {
       Vector direction = corrector.inverse * residual; // nearly the error
-      const double error = direction.cwiseAbs().maxCoeff();
-      if (k > 0)
-        corrector.contraction = std::max(0.9 * corrector.contraction, error / before);
-      if (error * corrector.contraction <= tolerance * (solution + direction).cwiseAbs().maxCoeff()) {
+      if (direction.cwiseAbs().maxCoeff() <= tolerance * solution.cwiseAbs().maxCoeff()) {
         solution += direction;
-        // Not measured this time, and the shape moves on from the inverse's.
-        corrector.contraction = std::min(1.0, 1.1 * corrector.contraction);
         remember(position, solution, corrector);
         return solution;
       }
-      before = error;
       Vector image = apply(direction);
       for (std::size_t j = 0; j < images.size(); ++j) {
         const double share = images[j].dot(image);
@@ -480,11 +473,6 @@ Vector FlowSystem::apply_membrane_operator(const Interaction &shape, const Vecto
   return (1 + viscosity_ratio_) / 2 * velocity - (viscosity_ratio_ - 1) * double_layer;
 }
 
-void FlowSystem::Corrector::set(const Matrix &matrix) {
-  inverse = matrix.partialPivLu().inverse();
-  contraction = 1;
-}
-
 // right is the velocity without what v does and without the wall, at_wall what is on the wall without v: the
 // wall's answer to both is found at once.
 Vector FlowSystem::membrane_velocity(const Interaction &shape, const Vector &right, const Vector &at_wall,
@@ -547,7 +535,7 @@ Matrix FlowSystem::mobility(const Interaction &shape, Memory &memory) const {
   const Matrix single = single_layer(shape, answer);
   if (!has_inner_flow())
     return single;
-  memory.velocity.set(membrane_operator(shape, answer));
+  memory.velocity.inverse = membrane_operator(shape, answer).partialPivLu().inverse();
   return memory.velocity.inverse * single;
 }
 

@@ -67,9 +67,7 @@ public:
   // first guess.
   struct Corrector {
     Matrix inverse;
-    double contraction = 1;                   // of an error by a correction
     std::vector<Vector> positions, solutions; // the latest first
-    void set(const Matrix &matrix);
   };
   // What lambda != 1 carries from one shape to the next. Empty at the start; the flow is the same with any, to
   // the solver's tolerance.

@@ -27,7 +27,8 @@ Resolution choose_resolution(const Case &physics) {
   // A panel of p Gauss points resolves about two thirds of the waves that p equidistant nodes would.
   flow.membrane_panel = 0.65 * std::numbers::pi * flow.membrane_panel_points / nodes;
   flow.near_tolerance = std::min(1e-6, 1e-3 * physics.accuracy);
-  flow.solver_tolerance = 0.03 * resolution.time_tolerance;
+  if (physics.time.scheme == Scheme::bdf)
+    flow.solver_tolerance = 0.03 * resolution.time_tolerance;
   flow.wall_panel_points = digits > 4.5 || tight ? 12 : digits > 2.5 ? 10 : 8;
   flow.lip_panel = digits > 5 ? 0.02 : digits > 3.5 ? 0.08 : digits > 2.5 ? 0.16 : 0.32;
   // About two fifths of the wall's points lie in the tube.
