@@ -36,6 +36,9 @@ class FlowSystem {
 public:
   FlowSystem(const Case &physics, const MeridianBasis &basis, const FlowResolution &resolution);
 
+  // zeta of the membrane's quadrature points, Q
+  const Vector &panel_points() const { return panels_.points; }
+
   // Everything that depends on the shape alone.
   // Membrane and wall act on each other through one matrix of kernels between nodes and wall points: the
   // kernel is symmetric, the wall's panels and the rule on the nodes are the weights. Pairs that are too near
