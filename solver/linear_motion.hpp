@@ -6,11 +6,12 @@
 //   beta v' = (lambda - 1) D v' - (1/2 + D) w + (1/(8 pi)) S f'
 //   w  = (q_t/eps) (n.d) t          the jump of the disturbance's velocity across the undisplaced membrane
 //   f' = change of the load in d, carried to the undisplaced membrane
-// with the wall's answers in S and D (derivation: paper-notes/equations.md). f' and w of the interpolated shape and load
-// are integrated as they are at the quadrature points, not as interpolants of nodal values: with one derivative of the
-// load more than the motion has, those would be the worst resolved part. So this is the derivative of the discrete
-// motion up to errors of quadrature, but for the wall's answers, which come from nodal values. At shapes whose nodes still move
-// in the capsule's frame the result is in error by as much as they move.
+// with the wall's answers in S and D (derivation: paper-notes/equations.md). f' and w of the interpolated
+// shape and load are integrated as they are at the quadrature points, not as interpolants of nodal values:
+// with one derivative of the load more than the motion has, those would be the worst resolved part. So this is
+// the derivative of the discrete motion up to errors of quadrature, but for the wall's answers, which come
+// from nodal values. At shapes whose nodes still move in the capsule's frame the result is in error by as
+// much as they move.
 #include "flow_system.hpp"
 #include "membrane.hpp"
 
