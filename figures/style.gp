@@ -63,7 +63,7 @@ marks_title(marks, place) = marks eq "" ? "" : ", NaN with points linetype 1 ".p
 # for `print`.
 pixels(centimetres) = centimetres / 2.54 * 96
 terminal(width, height) = format eq "svg" \
-  ? sprintf("set terminal svg enhanced size %.0f,%.0f font '%s,12' background '#ffffff'", pixels(width), \
+  ? sprintf("set terminal svg enhanced size %.0f,%.0f font '%s,9' background '#ffffff'", pixels(width), \
             pixels(height), "Liberation Sans, Arial, Helvetica, sans-serif") \
   : sprintf("set terminal pngcairo enhanced size %.0f,%.0f font '%s,9' fontscale 3 linewidth 3 pointscale 3", \
             3 * pixels(width), 3 * pixels(height), "Liberation Sans")

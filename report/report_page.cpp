@@ -145,12 +145,13 @@ std::string ledger() {
 std::string chapter(const fs::path &directory) {
   const std::string id = directory.filename();
   std::string html;
-  for (const fs::path &picture : files_of(fs::path("figures") / id, ".png")) {
+  for (const fs::path &picture : files_of(fs::path("figures") / id, ".svg")) {
     const std::string text = caption(fs::path(picture).replace_extension(".md"));
-    // figures/style.gp draws them with three dots a pixel of the page.
-    html += fmt::format("<figure><img alt=\"{}\" "
-                        "srcset=\"data:image/png;base64,{} 3x\">\n<figcaption>{}</figcaption></figure>\n",
-                        escaped(picture.stem()), base64(read_file(picture)), text);
+    // Drawn for a printed column, they are shown half as large again.
+    html +=
+        fmt::format("<figure><img alt=\"{}\" "
+                    "srcset=\"data:image/svg+xml;base64,{} 0.67x\">\n<figcaption>{}</figcaption></figure>\n",
+                    escaped(picture.stem()), base64(read_file(picture)), text);
   }
   if (const fs::path csv = fs::path("tables") / (id + ".csv"); fs::exists(csv))
     html += fmt::format("<details><summary>Computed against published values</summary>\n{}</details>\n",
