@@ -24,13 +24,17 @@ constexpr std::array numbers_of_a_steady_state{"flow.capillary_number", "capsule
                                                "membrane.dilatation"};
 
 void require_way(const Case &physics, const std::string &key, double to) {
-  if (std::ranges::find(numbers_of_a_steady_state, key) == numbers_of_a_steady_state.end())
-    throw InputError(fmt::format("error: no branch along '{}'; it goes along one of {}\n", key,
-                                 fmt::join(numbers_of_a_steady_state, ", ")));
+  if (std::ranges::find(numbers_of_a_steady_state, key) == numbers_of_a_steady_state.end()) {
+    const std::vector<std::string> names(numbers_of_a_steady_state.begin(), numbers_of_a_steady_state.end());
+    const std::string near = nearest_word(key, names);
+    throw InputError(fmt::format("error: no branch along '{}'\n{}it goes along one of {}\n", key,
+                                 near.empty() ? "" : fmt::format("did you mean '{}'? ", near),
+                                 fmt::join(names, ", ")));
+  }
   Case there = physics;
   if (const auto complaint = set_value(*find_key(key), to, there))
-    throw InputError(
-        fmt::format("error: --to {}: {}; {}\n", number_text(to), complaint->message, complaint->hint));
+    throw InputError(fmt::format("error: --to {}: {}\n{}\n", number_text(to), complaint->message,
+                                 "allowed: " + allowed_text(*find_key(key))));
   if (key == "capsule.radius" && physics.flow.type == FlowType::extension)
     throw InputError("error: no branch along 'capsule.radius': it is the unit of length in an extension\n");
   if (!KeyPath(key, physics, to).needed())

@@ -108,6 +108,14 @@ struct Reader {
     return sources.size() - 1;
   }
 
+  // The rest of the line.
+  std::string_view text_at(const Place &place) const {
+    const std::vector<std::string> &lines = sources[place.source].lines;
+    if (place.line > lines.size() || place.column > lines[place.line - 1].size())
+      return {};
+    return std::string_view(lines[place.line - 1]).substr(place.column - 1);
+  }
+
   void complain(const Place &place, std::string message, std::string hint = "") {
     const auto same = [&](const Error &e) { return e.place == place && e.complaint.message == message; };
     if (std::ranges::none_of(errors, same)) // the runs of a sweep may fail alike
@@ -207,8 +215,10 @@ void complain_unknown(Reader &reader, const Place &place, const std::string &nam
     return;
   }
   const std::string near = nearest_key(name);
+  // As it would be written at the same place: below [flow] without the section.
   const bool same_section = section_of(near) == section_of(name);
-  const std::string shown = same_section && !sweep ? std::string(last_component(near)) : near;
+  const bool below_section = reader.text_at(place).starts_with(last_component(name));
+  const std::string shown = same_section && below_section ? std::string(last_component(near)) : near;
   reader.meant.push_back(near);
   reader.complain(place, fmt::format("unknown key '{}'{}", name, sweep ? " in sweep" : ""),
                   near.empty() ? "`capsule keys` lists them all" : fmt::format("did you mean '{}'?", shown));
@@ -314,6 +324,9 @@ std::variant<std::string, Complaint> read_text(const fs::path &file) {
     return Complaint{"cannot be read: " + ec.message(), ""};
   if (status.type() != fs::file_type::regular)
     return Complaint{"is not a regular file", ""};
+  constexpr std::uintmax_t most_bytes = 1000000;
+  if (fs::file_size(file, ec) > most_bytes && !ec)
+    return Complaint{"is larger than any case file", ""};
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;

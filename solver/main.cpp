@@ -16,6 +16,7 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
@@ -317,6 +318,16 @@ int create(const std::string &id, const std::string &like) {
   return done;
 }
 
+// CLI11's own takes nan, and says the largest double in full.
+CLI::Validator above_zero() {
+  return {[](const std::string &text) -> std::string {
+            const auto number = to_number(text);
+            const bool good = number && *number > 0 && std::isfinite(*number);
+            return good ? "" : fmt::format("'{}' is no number above 0", text);
+          },
+          "> 0"};
+}
+
 void add_case(CLI::App &command, Arguments &arguments) {
   command.add_option("CASE", arguments.path, "a case directory or a .toml file")->required();
   command
@@ -341,14 +352,27 @@ void add_computing(CLI::App &command, Arguments &arguments) {
   command.add_flag("--fresh", arguments.fresh, "compute again what is finished, from the start");
   command
       .add_option("--time-limit", arguments.time_limit, "leave checkpoints and stop after so many seconds")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 void add_selection(CLI::App &command, Arguments &arguments) {
   command.add_flag("--list", arguments.list,
                    "list the runs instead: number, directory, identity, what there is; parted by tabs");
   command.add_option("--only", arguments.only, "compute only the run of this number, as --list counts")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
+}
+
+// A misspelt command is said to be one; CLI11 would only miss the right one.
+void require_command(const CLI::App &app, int argc, char **argv) {
+  const std::string word = argc > 1 ? argv[1] : "-";
+  std::vector<std::string> names;
+  for (const CLI::App *command : app.get_subcommands({}))
+    names.push_back(command->get_name());
+  if (word.starts_with("-") || std::ranges::find(names, word) != names.end())
+    return;
+  const std::string near = nearest_word(word, names);
+  throw InputError(fmt::format("error: unknown command '{}'\n{}`capsule --help` lists the commands\n", word,
+                               near.empty() ? "" : fmt::format("did you mean '{}'? ", near)));
 }
 
 int run_command(int argc, char **argv) {
@@ -403,6 +427,7 @@ int run_command(int argc, char **argv) {
   new_app.add_option("--like", like, "the case to copy: a directory, or the name of one in cases/")
       ->required();
   new_app.callback([&] { code = create(id, like); });
+  require_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {

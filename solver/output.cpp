@@ -430,9 +430,9 @@ std::vector<fs::path> files_in(const fs::path &directory,
 }
 
 void remove_file(const fs::path &file) {
-  std::error_code ec;
-  fs::remove(file, ec);
-  if (ec)
+  std::error_code ec, ignored;
+  fs::remove(file, ec); // complains on a read-only disk even about a file that is not there
+  if (ec && fs::exists(fs::symlink_status(file, ignored)))
     fail("cannot remove", file, ec.value());
 }
 
@@ -442,9 +442,13 @@ fs::path temporary_beside(const fs::path &file) {
   return file.parent_path() / fmt::format("{}{}.{}", temporary_prefix, file.filename().string(), getpid());
 }
 
-// What a killed process leaves behind.
-bool is_temporary(const fs::path &file) {
-  return file.filename().string().starts_with(temporary_prefix);
+// What a killed process leaves behind of a run's files; of others, another process may be writing.
+bool is_left_over(const fs::path &file) {
+  const std::string name = file.filename().string();
+  if (!name.starts_with(temporary_prefix))
+    return false;
+  const fs::path meant = fs::path(name.substr(temporary_prefix.size())).stem();
+  return is_result(meant) || meant == "checkpoint.json";
 }
 
 // A hard link, or a copy where there can be none.
@@ -671,7 +675,7 @@ bool is_finished_input(const fs::path &directory, const Case &physics, const Tas
 void remove_results(const fs::path &directory) {
   remove_file(directory / "summary.json");
   for (const fs::path &file :
-       files_in(directory, [](const fs::path &f) { return is_result(f) || is_temporary(f); }))
+       files_in(directory, [](const fs::path &f) { return is_result(f) || is_left_over(f); }))
     remove_file(file);
 }
 

@@ -12,6 +12,8 @@
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fstream>
+#include <sstream>
 #include <sys/file.h>
 #include <thread>
 #include <unistd.h>
@@ -124,7 +126,7 @@ struct Campaign {
   bool wait_for(const DirectoryLock &lock, const RunInput &run) {
     for (bool told = false; !lock.acquire(); told = true) {
       if (!told)
-        line.print(fmt::format("{}: another process computes this run; waiting for it",
+        line.print(fmt::format("{}: another process computes this run or one in its place; waiting for it",
                                run.name.empty() ? input.name : run.name));
       if (stops())
         return false;
@@ -185,8 +187,13 @@ struct Campaign {
     const Course course = there ? found : march_in(home, index);
     if (there)
       remove_checkpoint(home); // of a process that was killed when it was nearly done
-    if (course != interrupted && home != results[index].directory)
-      share_results(home, results[index].directory);
+    if (course == interrupted || home == results[index].directory)
+      return course;
+    make_directories(results[index].directory);
+    const DirectoryLock place(results[index].directory);
+    if (!wait_for(place, run))
+      return interrupted;
+    share_results(home, results[index].directory);
     return course;
   }
 
@@ -201,7 +208,10 @@ struct Campaign {
     line.finish(input.runs[index].name);
     if (course == interrupted)
       return;
-    results[index].summary = read_summary(results[index].directory);
+    results[index].summary = read_summary(home_of(input.runs[index], options));
+    if (!is_there(input.runs[index], options)) // neither may the summary be
+      throw FileError(fmt::format("another process has overwritten '{}'; give each its own --out",
+                                  results[index].directory.string()));
     line.print(report(results[index], input.name, course));
   }
 
@@ -239,8 +249,13 @@ void write_run_list(const CaseInput &input, const RunOptions &options) {
   std::string text;
   for (const RunInput &run : input.runs)
     text += (run.name.empty() ? "." : run.name) + "\n";
+  const fs::path file = options.directory / "runs.txt";
+  std::ostringstream present;
+  present << std::ifstream(file).rdbuf();
+  if (present.str() == text) // perhaps where nothing can be written
+    return;
   make_directories(options.directory);
-  write_atomically(options.directory / "runs.txt", text);
+  write_atomically(file, text);
 }
 
 std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options, const March &march) {
