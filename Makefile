@@ -7,7 +7,7 @@
 SHELL := /bin/bash
 
 .DEFAULT_GOAL := build
-.PHONY: help setup build figures tables report atlas sweep sweep-case test bench paper-numerics clean
+.PHONY: help setup build figures tables report atlas sweep sweep-case test bench paper-numerics lint sanitize fuzz coverage clean
 
 help:
 	@echo 'make [build]         build the solver, build/capsule'
@@ -18,6 +18,10 @@ help:
 	@echo 'make atlas           compute every study of validation/ and draw its figures, also those of studies that fail'
 	@echo 'make sweep CASE=cases/... [JOBS=n] [SSH=one,two,:]   share the runs of a case out to processes and machines'
 	@echo 'make test            run all tests'
+	@echo 'make lint            clang-format and clang-tidy over all sources, where they are installed'
+	@echo 'make sanitize        unit tests with the address and undefined-behaviour sanitizers'
+	@echo 'make fuzz [SECONDS=600]   random case files and --set arguments, with the sanitizers (needs clang)'
+	@echo 'make coverage        lines of solver/ that unit tests and quick tests of the program run'
 	@echo 'make bench           time kernels and steps; chart speed against accuracy (on a quiet machine)'
 	@echo 'make paper-numerics  compute Tables 1 and 3 again with the numerics of the paper: an hour or more'
 	@echo 'make clean           remove what was built, computed and drawn'
@@ -80,6 +84,22 @@ bench: build
 	done
 	@cmake --build build --target study-speed-accuracy
 
+lint: build
+	@cmake/lint.sh build
+
+sanitize: | setup
+	@cmake --preset sanitize && cmake --build --preset sanitize && ctest --preset sanitize
+
+# Half of the time for each; what was found on the way stays in build-fuzz/ for the next time.
+SECONDS ?= 600
+fuzz: | setup
+	@cmake --preset fuzz && cmake --build --preset fuzz
+	@cmake/fuzz.sh $(SECONDS)
+
+coverage: | setup
+	@cmake --preset coverage && cmake --build --preset coverage
+	@cmake/coverage.sh
+
 clean:
-	rm -rf build results figures/*/ figures/gallery.md tables/*.md report.html
+	rm -rf build build-* results figures/*/ figures/gallery.md tables/*.md report.html
 	find tables -name '*.csv' ! -name published.csv -delete

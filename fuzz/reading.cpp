@@ -24,7 +24,8 @@ void check_message(const std::string &message) {
   if (!std::regex_search(message, located))
     finding("an error without its place: " + message);
   for (const char c : message)
-    if (const auto code = static_cast<unsigned char>(c); (code < 0x20 && c != '\n' && c != '\t') || code == 0x7f)
+    if (const auto code = static_cast<unsigned char>(c);
+        (code < 0x20 && c != '\n' && c != '\t') || code == 0x7f)
       finding("a control character in the message: " + message);
 }
 

@@ -23,24 +23,6 @@ constexpr std::array numbers_of_a_steady_state{"flow.capillary_number", "capsule
                                                "capsule.aspect_ratio", "membrane.bending_ratio",
                                                "membrane.dilatation"};
 
-void require_way(const Case &physics, const std::string &key, double to) {
-  if (std::ranges::find(numbers_of_a_steady_state, key) == numbers_of_a_steady_state.end()) {
-    const std::vector<std::string> names(numbers_of_a_steady_state.begin(), numbers_of_a_steady_state.end());
-    const std::string near = nearest_word(key, names);
-    throw InputError(fmt::format("error: no branch along '{}'\n{}it goes along one of {}\n", key,
-                                 near.empty() ? "" : fmt::format("did you mean '{}'? ", near),
-                                 fmt::join(names, ", ")));
-  }
-  Case there = physics;
-  if (const auto complaint = set_value(*find_key(key), to, there))
-    throw InputError(fmt::format("error: --to {}: {}\n{}\n", number_text(to), complaint->message,
-                                 "allowed: " + allowed_text(*find_key(key))));
-  if (key == "capsule.radius" && physics.flow.type == FlowType::extension)
-    throw InputError("error: no branch along 'capsule.radius': it is the unit of length in an extension\n");
-  if (!KeyPath(key, physics, to).needed())
-    throw InputError(fmt::format("error: {} = {} is where the branch begins\n", key, number_text(to)));
-}
-
 // The points of one branch as they are found.
 class Record {
 public:
@@ -168,8 +150,26 @@ private:
 
 } // namespace
 
+void require_branch(const Case &physics, const std::string &key, double to) {
+  if (std::ranges::find(numbers_of_a_steady_state, key) == numbers_of_a_steady_state.end()) {
+    const std::vector<std::string> names(numbers_of_a_steady_state.begin(), numbers_of_a_steady_state.end());
+    const std::string near = nearest_word(key, names);
+    throw InputError(fmt::format("error: no branch along '{}'\n{}it goes along one of {}\n", key,
+                                 near.empty() ? "" : fmt::format("did you mean '{}'? ", near),
+                                 fmt::join(names, ", ")));
+  }
+  Case there = physics;
+  if (const auto complaint = set_value(*find_key(key), to, there))
+    throw InputError(fmt::format("error: --to {}: {}\n{}\n", number_text(to), complaint->message,
+                                 "allowed: " + allowed_text(*find_key(key))));
+  if (key == "capsule.radius" && physics.flow.type == FlowType::extension)
+    throw InputError("error: no branch along 'capsule.radius': it is the unit of length in an extension\n");
+  if (!KeyPath(key, physics, to).needed())
+    throw InputError(fmt::format("error: {} = {} is where the branch begins\n", key, number_text(to)));
+}
+
 Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control) {
-  require_way(asked, key, to);
+  require_branch(asked, key, to);
   Case physics = asked;
   physics.accuracy = std::min(asked.accuracy, accuracy_of_folds);
   Walk walk(physics, KeyPath(key, physics, to), control);

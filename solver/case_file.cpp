@@ -337,21 +337,54 @@ std::variant<std::string, Complaint> read_text(const fs::path &file) {
   return text.str();
 }
 
-// Parsed, or a complaint at the place where the parser stopped.
-std::optional<toml::table> parse(Reader &reader, std::size_t source, const std::string &text) {
-  if (const std::size_t zero = text.find('\0'); zero != std::string::npos) {
-    const auto line =
-        static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<long>(zero), '\n'));
-    const std::size_t before = text.rfind('\n', zero);
-    reader.complain({source, line + 1, before == std::string::npos ? zero + 1 : zero - before},
-                    "not a text file: byte 0");
-    return std::nullopt;
+bool is_ascii(char c) {
+  return static_cast<unsigned char>(c) < 0x80;
+}
+bool begins_character(char c) {
+  return (static_cast<unsigned char>(c) & 0xc0u) != 0x80;
+}
+
+// The text with one ASCII character for each.
+std::string in_ascii(const std::string &text) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // allowed in front
+  std::string ascii;
+  for (const char c : text.substr(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0))
+    if (begins_character(c))
+      ascii += is_ascii(c) ? c : '?';
+  return ascii;
+}
+
+// The first character beyond ASCII that begins a line joined to the one before by a backslash.
+std::size_t find_joined(const std::string &text) {
+  constexpr const char *white = " \t\v\f\r\n";
+  for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
+    const std::size_t next = text.find_first_not_of(white, at + 1);
+    if (next != std::string::npos && !is_ascii(text[next]) && text.find('\n', at) < next)
+      return next;
   }
+  return std::string::npos;
+}
+
+Place place_of(std::size_t source, std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, byte);
+  const auto lines = static_cast<std::size_t>(std::ranges::count(before, '\n'));
+  const auto columns = std::ranges::count_if(before.substr(before.rfind('\n') + 1), begins_character);
+  return {source, lines + 1, static_cast<std::size_t>(columns) + 1};
+}
+
+// The table that a text is, or what is wrong with it. What toml++ 3.3 does is not defined where it asks whether a
+// character beyond ASCII is white space: outside of strings and comments, where it would be an error like the ASCII
+// character in its place, and behind a backslash that joins two lines of a string.
+std::variant<toml::table, Error> parse(std::size_t source, const std::string &text) {
+  if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
+    return Error{place_of(source, text, zero), {"not a text file: byte 0", ""}};
+  if (const std::size_t joined = find_joined(text); joined != std::string::npos)
+    return Error{place_of(source, text, joined), {"a joined line must begin with an ASCII character", ""}};
   try {
+    const toml::table structure = toml::parse(std::string_view(in_ascii(text)));
     return toml::parse(std::string_view(text));
   } catch (const toml::parse_error &error) {
-    reader.complain(place_of(source, error.source().begin), std::string(error.description()));
-    return std::nullopt;
+    return Error{place_of(source, error.source().begin), {std::string(error.description()), ""}};
   }
 }
 
@@ -429,18 +462,20 @@ void read_file(Reader &reader, const fs::path &file, std::vector<fs::path> &chai
     reader.complete = false;
     return;
   }
-  auto root = parse(reader, source, *content);
-  if (!root) {
+  auto parsed = parse(source, *content);
+  if (const auto *error = std::get_if<Error>(&parsed)) {
+    reader.complain(error->place, error->complaint.message);
     reader.complete = false;
     return;
   }
-  if (root->empty())
+  auto &root = std::get<toml::table>(parsed);
+  if (root.empty())
     reader.complain({source}, "the file holds no keys");
   std::error_code ignored;
   chain.push_back(fs::weakly_canonical(file, ignored));
-  follow_inherit(reader, source, *root, file, chain);
+  follow_inherit(reader, source, root, file, chain);
   chain.pop_back();
-  collect(reader, source, *root);
+  collect(reader, source, root);
 }
 
 // "key=value", where the value may be a bare word.
@@ -451,15 +486,14 @@ void read_override(Reader &reader, const std::string &argument) {
     reader.complain({source}, "expected key=value");
     return;
   }
-  try {
-    collect(reader, source, toml::parse(std::string_view(argument)));
-  } catch (const toml::parse_error &) {
-    const std::string word = value_text(argument.substr(equals + 1));
-    if (const auto root = parse(reader, source, argument.substr(0, equals + 1) + word))
-      collect(reader, source, *root);
-    else
-      reader.complete = false;
-  }
+  auto parsed = parse(source, argument);
+  if (std::holds_alternative<Error>(parsed))
+    parsed = parse(source, argument.substr(0, equals + 1) + value_text(argument.substr(equals + 1)));
+  if (const auto *error = std::get_if<Error>(&parsed)) {
+    reader.complain(error->place, error->complaint.message);
+    reader.complete = false;
+  } else
+    collect(reader, source, std::get<toml::table>(parsed));
 }
 
 // The values of one run: for each assignment the index of its value.

@@ -197,6 +197,8 @@ int run_branch(const Arguments &arguments) {
   const Task task{.motion = false,
                   .name =
                       fmt::format("branch --along {} --to {}", arguments.along, number_text(arguments.to))};
+  for (const RunInput &input : read_case(arguments.path, arguments.overrides, task).runs)
+    require_branch(input.physics, arguments.along, arguments.to);
   return run(arguments,
              {task, [&](const Case &physics, const Checkpoint & /*none is saved*/, const Control &control) {
                 return follow_branch(physics, arguments.along, arguments.to, control);

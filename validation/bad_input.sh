@@ -50,6 +50,7 @@ printf 'accuracy = 1\n%s\nmesh.wall = 1.5\n' "$good" | bad '1:12: error: accurac
 printf '' | bad '1:1: error: the file holds no keys'
 printf '\000\001\002\377' | bad '1:1: error: not a text file'
 printf 'title = "\377\376"\n%s\n' "$good" | bad '1:[0-9]+: error: '
+printf 'title = "\303\251" # \303\251\n%s\nr\303\251 = 1\n' "$good" | bad '5:2: error: '
 echo "$good" | sed 's/skalak/mooney/' | bad "2:16: error: unknown membrane.law 'mooney'"
 echo "$good" | sed 's/0.04/-0.04/' | bad '3:25: error: flow.capillary_number = -0.04 is out of range'
 echo "$good" | sed 's/0.04/nan/' | bad '3:25: error: .* must be a finite number, not nan'
@@ -92,15 +93,23 @@ mkdir empty
 expect 2 '^empty/case.toml:1:1: error: no such file' "$capsule" run empty
 echo "$good" >file.toml
 expect 2 '^file.toml/below:1:1: error: no such file' "$capsule" run file.toml/below
+truncate -s 1G huge.toml
+expect 2 '^huge.toml:1:1: error: is larger' "$capsule" run huge.toml
 ln -s /proc/self/mem unreadable.toml
 expect 2 '^unreadable.toml:1:1: error: cannot be read' "$capsule" run unreadable.toml
 expect 2 '^--set:1:1: error: unknown key' "$capsule" run file.toml --set flow.viscosity=1
+expect 2 '^--set:1:1: error: ' "$capsule" run file.toml --set 'ωflow.viscosity=1'
+expect 2 "^did you mean 'flow.viscosity_ratio'" "$capsule" run file.toml --set flow.viscosity_rato=1
 expect 2 '^--set:1:1: error: expected key=value' "$capsule" run file.toml --set flow.viscosity_ratio
 expect 2 '^--set:1:22: error: flow.viscosity_ratio = -1' "$capsule" run file.toml --set flow.viscosity_ratio=-1
 expect 2 'CASE' "$capsule" run
 expect 2 'subcommand' "$capsule"
 expect 2 'jobs' "$capsule" run file.toml --jobs 0
 expect 2 'time-limit' "$capsule" run file.toml --time-limit -1
+expect 2 'time-limit' "$capsule" run file.toml --time-limit nan
+expect 2 "^did you mean 'steady'" "$capsule" stedy file.toml
+expect 2 "^did you mean 'capsule.radius'" "$capsule" branch file.toml --along capsule.raduis --to 1
+expect 2 '^error: --to nan: .*finite number, not nan' "$capsule" branch file.toml --along capsule.radius --to nan
 expect 2 'error: is not a case directory' "$capsule" new fresh --like none
 expect 0 'capillary_number' "$capsule" keys
 expect 0 'Usage' "$capsule" run --help

@@ -335,13 +335,27 @@ BOOST_AUTO_TEST_CASE(not_toml) {
   check_errors(sphere + "capillary_number = 0.05\n", {"9:"});
   check_errors(sphere + "[flow]\nviscosity_ratio = 2\n", {"9:"});
   check_errors(sphere + "[mesh\n", {"9:"});
-  check_errors("title = \"a\xff\"\n" + sphere, {"1:"});
+  check_errors("paper = \"a\xff\"\n" + sphere, {"1:"});
+  // What the parser cannot be trusted with.
+  check_errors("r\xc3\xa9 = 1\n" + sphere, {"1:2: error:"});
+  check_errors("accuracy =-\"\xc3\xa9\n" + sphere, {"1:"});
+  check_errors("paper = \"\"\"a \\\n \xc3\xa9\"\"\"\n" + sphere, {"2:2: error: a joined line"});
   check_errors(std::string("\x7f"
                            "ELF\n\0\0\x01",
                            8),
                {"2:1: error: not a text file"});
   check_errors("", {"1:1: error: the file holds no keys", "1:1: error: missing", "1:1: error: missing",
                     "1:1: error: missing"});
+}
+
+BOOST_AUTO_TEST_CASE(characters_beyond_ascii) {
+  const TemporaryDirectory directory;
+  const std::string title = "\xc3\xa9 \xe2\x80\xa8 \xf0\x9f\x98\x80";
+  const CaseInput input =
+      read_case(directory.write("case.toml", "\xef\xbb\xbfpaper = \"" + title + "\" # \xc3\xa9\n" + sphere),
+                {"title=\xc3\xa9"});
+  BOOST_TEST(input.runs.at(0).physics.paper == title);
+  BOOST_TEST(input.runs.at(0).physics.title == "\xc3\xa9");
 }
 
 BOOST_AUTO_TEST_CASE(no_such_file) {
