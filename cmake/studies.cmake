@@ -3,7 +3,7 @@
 #                files there, prints what it found and ends with 0 if every claim that it checks holds
 #   case.toml    runs that are compared with the case's rows of tables/published.csv
 # target study-<id>   computes, then draws figures/<id>/* whatever the verdict, and fails if the verdict says so;
-#                     all of them: atlas
+#                     all of them: atlas; `studies` builds the programs of all of them and runs none
 # A study.cpp that rows of tables/published.csv speak of leaves its numbers in results/<id>/summary.json: target and test
 # ledger wait for it.
 add_library(study EXCLUDE_FROM_ALL validation/study.cpp validation/steady_folds.cpp)
@@ -13,6 +13,7 @@ target_link_libraries(study PUBLIC solver PRIVATE warnings)
 include(ProcessorCount)
 ProcessorCount(PROCESSORS)
 add_custom_target(atlas)
+add_custom_target(studies)
 
 # The target study-<id>, which takes its verdict from the command.
 function(add_study id)
@@ -33,6 +34,7 @@ foreach(file IN LISTS STUDIES)
   add_executable(${id}-program EXCLUDE_FROM_ALL validation/${file})
   set_target_properties(${id}-program PROPERTIES OUTPUT_NAME ${id} RUNTIME_OUTPUT_DIRECTORY studies)
   target_link_libraries(${id}-program PRIVATE study warnings)
+  add_dependencies(studies ${id}-program)
   add_study(${id} $<TARGET_FILE:${id}-program> results/${id} ${PROCESSORS})
   add_dependencies(study-${id} ${id}-program)
   if(PUBLISHED MATCHES ",${id},")

@@ -1,0 +1,35 @@
+#!/bin/sh
+# Which lines of solver/ the unit tests and the quick tests of the program run, from a build by the preset `coverage`.
+# Prints the share for each file, and writes the lines that nothing runs to build-coverage/not-run.txt.
+#   cmake/coverage.sh            fails below 90 %
+set -eu
+cd "$(dirname "$0")/.."
+build=$PWD/build-coverage
+find "$build" -name '*.gcda' -delete
+ctest --test-dir "$build" -j2 --output-on-failure -L unit
+ctest --test-dir "$build" -j2 --output-on-failure \
+  -R '^(bad_input|case_map|case-fig01-geometry|new_case|resume|same_bytes|sweep|two_at_once)$'
+
+# One file of counts for each source in each object; a line of a header counts as run if it was in any of them.
+rm -rf "$build/counts"
+mkdir "$build/counts"
+cd "$build/counts"
+find "$build/CMakeFiles/solver.dir" "$build/CMakeFiles/capsule.dir" "$build"/CMakeFiles/test_*.dir -name '*.gcda' |
+  xargs -n 1 gcov --long-file-names --preserve-paths >/dev/null 2>&1
+awk -F: -v not_run="$build/not-run.txt" '
+  $2 + 0 == 0 { if ($3 == "Source") source = $4; next }
+  source !~ /\/solver\/[^\/]*\.[ch]pp$/ { next }
+  { gsub(/ /, "", $1); sub(/^.*\/solver\//, "", source) ; source = "/solver/" source }
+  $1 == "-" { next }
+  { line = source ":" $2 + 0; lines[line] = source; if ($1 + 0 > 0) run[line] = 1 }
+  END {
+    for (line in lines) {
+      file = substr(lines[line], 9)
+      ++all[file]; ++total
+      if (line in run) { ++done[file]; ++total_run } else print substr(line, 9) > not_run
+    }
+    for (file in all) printf "%6.1f %% of %4d  %s\n", 100 * done[file] / all[file], all[file], file | "sort -n"
+    close("sort -n")
+    printf "%6.1f %% of %4d  all\n", 100 * total_run / total, total
+    exit total_run < 0.9 * total
+  }' ./*.gcov

@@ -1,0 +1,22 @@
+#!/bin/sh
+# clang-format and clang-tidy (both of LLVM 14, Debian 12's) over the sources; says so where they are not installed.
+#   cmake/lint.sh BUILD [PATTERN]     BUILD: a configured build directory; PATTERN: which files clang-tidy reads, all of
+#                                     them if it is not given (half an hour of one core)
+set -eu
+cd "$(dirname "$0")/.."
+for tool in clang-format clang-tidy run-clang-tidy; do
+  if ! command -v $tool >/dev/null; then
+    echo "lint: skipped, needs the packages clang-format and clang-tidy"
+    exit 0
+  fi
+done
+git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror
+echo 'lint: clang-format is content'
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if run-clang-tidy -quiet -p "$1" -j "$(nproc)" "$PWD/${2:-(solver|report|validation)/}" >"$log" 2>/dev/null; then
+  echo "lint: clang-tidy is content with $(grep -c '^clang-tidy' "$log") files"
+else
+  grep -E -A 4 '(error|warning):' "$log"
+  exit 1
+fi
