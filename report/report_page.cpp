@@ -116,6 +116,7 @@ std::string table_cell(const std::string &column, const std::string &text) {
 std::string table(const fs::path &csv, const std::vector<std::string> &wanted = {}) {
   const auto rows = read_table(csv);
   std::vector<std::size_t> columns;
+  columns.reserve(rows.front().size());
   for (const std::string &name : wanted)
     columns.push_back(static_cast<std::size_t>(std::ranges::find(rows.front(), name) - rows.front().begin()));
   for (std::size_t k = 0; wanted.empty() && k < rows.front().size(); ++k)

@@ -315,7 +315,7 @@ std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow
   std::vector<Scaled> columns;
   std::string text;
   for (const PhysicalColumn &column : physical_columns)
-    if (const auto source =
+    if (const auto *const source =
             std::ranges::find(series_columns, std::string_view(column.name), &SeriesColumn::name);
         source != series_columns.end()) {
       text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name, unit_text(column.of));
