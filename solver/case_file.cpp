@@ -74,11 +74,21 @@ std::string printable(const std::string &line) {
   return shown;
 }
 
+// What a file's own words may have brought into a message, without commands to the terminal.
+std::string without_controls(const std::string &text) {
+  std::string shown;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    shown += code < 0x20 || code == 0x7f ? fmt::format("\\u{:04x}", code) : std::string(1, c);
+  }
+  return shown;
+}
+
 std::string error_text(const Error &error, const std::vector<Source> &sources) {
   const Place &place = error.place;
   const Source &source = sources.at(place.source);
-  std::string text =
-      fmt::format("{}:{}:{}: error: {}\n", source.label, place.line, place.column, error.complaint.message);
+  std::string text = fmt::format("{}:{}:{}: error: {}\n", source.label, place.line, place.column,
+                                 without_controls(error.complaint.message));
   if (place.line <= source.lines.size()) {
     const std::string line = printable(source.lines[place.line - 1]);
     std::string margin = line.substr(0, place.column - 1);
@@ -87,7 +97,7 @@ std::string error_text(const Error &error, const std::vector<Source> &sources) {
     text += fmt::format("{:5} | {}\n      | {}^\n", place.line, line, margin);
   }
   if (!error.complaint.hint.empty())
-    text += error.complaint.hint + "\n";
+    text += without_controls(error.complaint.hint) + "\n";
   return text;
 }
 

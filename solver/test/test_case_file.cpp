@@ -340,6 +340,8 @@ BOOST_AUTO_TEST_CASE(not_toml) {
   check_errors("r\xc3\xa9 = 1\n" + sphere, {"1:2: error:"});
   check_errors("accuracy =-\"\xc3\xa9\n" + sphere, {"1:"});
   check_errors("paper = \"\"\"a \\\n \xc3\xa9\"\"\"\n" + sphere, {"2:2: error: a joined line"});
+  check_errors("accuracy = \"\\u001b[2J\"\n" + sphere,
+               {R"(1:12: error: accuracy must be a number, not the text '\u001b[2J')"});
   check_errors(std::string("\x7f"
                            "ELF\n\0\0\x01",
                            8),
