@@ -14,8 +14,10 @@ done
       [ ! -e "$file" ] || echo "$(basename "$file") $file"
     done
   done | sort | while read -r _ file; do
+    id=$(basename "$(dirname "$file")")
     echo
     cat "$file"
+    printf '\nData: [results/%s](../results/%s)\n' "$id" "$id"
   done
   for file in tables/table[0-9].md; do
     [ -e "$file" ] || continue
