@@ -142,6 +142,15 @@ std::string ledger() {
                          : "<p>Not computed yet.</p>";
 }
 
+// The question of a case or study: the first line of its README.md, or its name where it has none.
+std::string question(const fs::path &directory) {
+  const fs::path readme = directory / "README.md";
+  if (!fs::exists(readme))
+    return escaped(directory.filename());
+  const std::string line = capsule::read_lines(readme).at(0);
+  return marked(escaped(line.substr(line.find_first_not_of("# "))), "`", "code");
+}
+
 // The figures of a case or study, each with its finding, and how its numbers compare.
 std::string chapter(const fs::path &directory) {
   const std::string id = directory.filename();
@@ -158,7 +167,8 @@ std::string chapter(const fs::path &directory) {
     html += fmt::format("<details><summary>Computed against published values</summary>\n{}</details>\n",
                         table(csv));
   return html.empty() ? ""
-                      : fmt::format("<article id=\"{0}\"><h3>{0}</h3>\n{1}</article>\n", escaped(id), html);
+                      : fmt::format("<article id=\"{}\"><h3>{}</h3>\n{}<p class=\"note\">{}</p></article>\n",
+                                    escaped(id), question(directory), html, escaped(directory.string()));
 }
 
 // The tables of the paper, computed beside published: tables/table<n>.csv, as the cases' figures leave them.
