@@ -52,7 +52,7 @@ std::string take_numbers(Expectation &row) {
 }
 
 std::string take_verdict(Expectation &row) {
-  const auto verdict = std::ranges::find(verdicts, row.verdict);
+  const auto *const verdict = std::ranges::find(verdicts, row.verdict);
   if (verdict == verdicts.end())
     return fmt::format("the verdict '{}' is none of '{}'", row.verdict, fmt::join(verdicts, "', '"));
   row.recorded = static_cast<Verdict>(verdict - verdicts.begin());
