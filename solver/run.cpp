@@ -13,6 +13,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fstream>
+#include <new>
 #include <sstream>
 #include <sys/file.h>
 #include <thread>
@@ -167,7 +168,16 @@ struct Campaign {
       written = wall_seconds();
     };
     const Checkpoint from = latest.checkpoint;
-    const Outcome outcome = march(run.physics, from, control);
+    const Outcome outcome = [&] {
+      try {
+        return march(run.physics, from, control);
+      } catch (const std::bad_alloc &) {
+        throw std::runtime_error(
+            fmt::format("{}: not enough memory; try fewer elements (mesh.membrane, mesh.wall) or "
+                        "a looser accuracy",
+                        run.name.empty() ? input.name : run.name));
+      }
+    }();
     if (outcome.status == Status::interrupted) {
       write_checkpoint(home, identity, {latest.checkpoint, stopwatch.effort()});
       return interrupted;

@@ -117,6 +117,9 @@ expect 0 '^capsule [0-9]' "$capsule" --version
 expect 0 'to be computed' "$capsule" show file.toml
 expect 4 'No space left' sh -c "'$capsule' keys >/dev/full"
 expect 4 'file.toml/below' "$capsule" run file.toml --out file.toml/below
+expect 3 'not enough memory' \
+  sh -c "ulimit -v 600000; '$capsule' run file.toml --set mesh.membrane=10000 --out '$place.out'"
+rm -rf "$place.out"
 
 [ "$failures" -eq 0 ] && echo "every kind of bad input is refused"
 exit "$failures"
