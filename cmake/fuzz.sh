@@ -12,6 +12,6 @@ done
 sed -n 's/^ *{"\([a-z_]*\)\.\([a-z_]*\)",.*/"\1"\n"\2"/p' solver/case_keys.cpp | sort -u >build-fuzz/keys.dict
 for what in case_file set; do
   echo "fuzz_$what:"
-  build-fuzz/fuzz_$what -max_total_time=$(($1 / 2)) -max_len=4096 -timeout=30 -rss_limit_mb=4096 -verbosity=0 -print_final_stats=1 \
+  build-fuzz/fuzz_$what -max_total_time=$(($1 / 2)) -max_len=4096 -timeout=120 -rss_limit_mb=4096 -verbosity=0 -print_final_stats=1 \
     -dict=build-fuzz/keys.dict -artifact_prefix=build-fuzz/finding- build-fuzz/corpus/$what fuzz/corpus/$what
 done

@@ -532,7 +532,7 @@ Vector FlowSystem::outer_velocity(const Targets &points, const Interaction &shap
 
 Matrix FlowSystem::mobility(const Interaction &shape, Memory &memory) const {
   const RowMatrix answer = answer_of_wall(shape);
-  const Matrix single = single_layer(shape, answer);
+  Matrix single = single_layer(shape, answer);
   if (!has_inner_flow())
     return single;
   memory.velocity.inverse = membrane_operator(shape, answer).partialPivLu().inverse();

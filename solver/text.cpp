@@ -56,6 +56,8 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
   std::string best;
   std::size_t smallest = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string &candidate : candidates) {
+    if (word.size() >= candidate.size() + smallest)
+      continue;
     const bool abbreviated = word.size() >= 3 && candidate.starts_with(word);
     if (const std::size_t distance = abbreviated ? 1 : edit_distance(word, candidate); distance < smallest) {
       smallest = distance;
