@@ -12,8 +12,7 @@
 namespace capsule {
 namespace {
 
-constexpr double row_spacing = 0.05; // of x_g
-constexpr double companion_row_spacing = 0.25;
+constexpr double row_spacing = 0.05;  // of x_g
 constexpr int rows_in_time = 200;     // where time tells the progress
 constexpr double runaway_stretch = 4; // a membrane stretched beyond is reported as unbounded
 constexpr int steps_between_checkpoints = 250;
@@ -54,8 +53,7 @@ std::vector<Station> stations(double from, double spacing, std::optional<double>
   return merged;
 }
 
-// The march that is asked for, or its coarse companion: this one needs fewer rows, and may wrinkle where the
-// other does not.
+// The march that is asked for, or its coarse companion, which may wrinkle where the other does not.
 enum class Part { leading, companion };
 
 // The march of one case: integrates, records what is due, and stops.
@@ -66,8 +64,7 @@ public:
         gauge_(physics, dynamics_.membrane), record_(from) {
     const Vector &start = started() ? record_.position : dynamics_.start;
     const bool by_position = physics.until.x_g.has_value();
-    by_x_g_ = stations(gauge_.centre(start), part == Part::leading ? row_spacing : companion_row_spacing,
-                       physics.until.x_g, physics.output.profiles_at_x_g);
+    by_x_g_ = stations(gauge_.centre(start), row_spacing, physics.until.x_g, physics.output.profiles_at_x_g);
     const double end = physics.until.time.value_or(std::numeric_limits<double>::infinity());
     by_time_ = stations(record_.time, by_position ? end : end / rows_in_time, physics.until.time,
                         physics.output.profiles_at_time);
@@ -289,19 +286,24 @@ private:
   std::size_t next_x_g_ = 0, next_time_ = 0;
 };
 
-// The same motion on a mesh and with a tolerance that let each kind of error grow about tenfold.
-Case companion(const Case &physics, const std::vector<SeriesRow> &fine) {
+// The same motion, a little coarser: each kind of error is then about three times as large. Much coarser ones tell
+// less: where convergence is exponential their errors are 10 to 100 times as large, and near an instability they go
+// another way.
+Case companion(const Case &physics) {
   Case coarse = physics;
   const Resolution chosen = choose_resolution(physics);
-  coarse.mesh.membrane = 4 * chosen.membrane_nodes / 5;
-  coarse.mesh.wall = 3 * chosen.wall_points / 4;
-  coarse.time.step = 4 * physics.time.step / 3; // as stable on its nodes as the fine one's
-  coarse.time.tolerance = 15 * chosen.time_tolerance;
+  coarse.mesh.membrane = 9 * chosen.membrane_nodes / 10;
+  coarse.mesh.wall = 9 * chosen.wall_points / 10;
+  coarse.time.step = physics.time.step / 0.9; // as stable on its nodes as the fine one's
+  coarse.time.tolerance = 5 * chosen.time_tolerance;
   coarse.output = {};
-  if (const std::optional<Peak> peak = entry_peak(fine)) // rows close enough to find it again
-    for (const double row : {-1.0, 0.0, 1.0})
-      coarse.output.profiles_at_x_g.push_back((std::round(peak->x_g / row_spacing) + row) * row_spacing);
   return coarse;
+}
+
+// So many times the difference of the two marches bounds the error; of Euler's scheme, of order 1, the difference is a
+// ninth of the error.
+double safety(Scheme scheme) {
+  return scheme == Scheme::euler ? 27 : 3;
 }
 
 struct Estimated {
@@ -322,40 +324,55 @@ constexpr std::array estimated{
     Estimated{"max_radial_velocity", &SeriesRow::max_radial_velocity},
 };
 
-// The largest |fine - coarse| at equal x_g along the way, as "v_g@x_g"; "x_g@time" from the time's.
-void add_history(std::map<std::string, double> &error, const std::vector<SeriesRow> &fine,
-                 const std::vector<SeriesRow> &coarse) {
-  constexpr double same_x_g = 1e-9;
+// Rows of both marches at the same x_g, or at the same time where time tells the end.
+struct RowPair {
+  const SeriesRow *fine, *coarse;
+};
+std::vector<RowPair> pair_rows(const std::vector<SeriesRow> &fine, const std::vector<SeriesRow> &coarse,
+                               double SeriesRow::*place) {
+  constexpr double same = 1e-9;
+  std::vector<RowPair> pairs;
   auto other = coarse.begin();
   for (const SeriesRow &row : fine) {
-    other = std::find_if(other, coarse.end(), [&](const SeriesRow &c) { return c.x_g > row.x_g - same_x_g; });
+    other = std::find_if(other, coarse.end(),
+                         [&](const SeriesRow &candidate) { return candidate.*place > row.*place - same; });
     if (other == coarse.end())
-      return;
-    if (other->x_g > row.x_g + same_x_g)
-      continue;
-    const auto add = [&](const std::string &name, double difference) {
-      error[name] = std::max(error[name], std::abs(difference));
-    };
-    for (const Estimated &quantity : estimated)
-      add(std::string(quantity.name) + "@x_g", row.*quantity.value - (*other).*quantity.value);
-    add("x_g@time", (row.time - other->time) * row.v_g);
+      break;
+    if ((*other).*place < row.*place + same)
+      pairs.push_back({&row, &*other});
   }
+  return pairs;
 }
 
-// |fine - coarse| of what summary.json reports, at the last row and along the way.
+// The largest differences of what summary.json reports: along the way, as "v_g@x_g", and, as the plain name, over its
+// last part. A single row may agree by accident.
 std::map<std::string, double> differences(const std::vector<SeriesRow> &fine,
-                                          const std::vector<SeriesRow> &coarse) {
-  std::map<std::string, double> error;
-  for (const Estimated &quantity : estimated)
-    error[quantity.name] = std::abs(fine.back().*quantity.value - coarse.back().*quantity.value);
-  error["volume_change"] = std::abs(fine.back().volume_change);
-  add_history(error, fine, coarse);
+                                          const std::vector<SeriesRow> &coarse, bool by_x_g) {
+  constexpr double last_part = 2; // x_g, or a tenth of the time
+  constexpr double around_peak = 0.5;
+  double SeriesRow::*const place = by_x_g ? &SeriesRow::x_g : &SeriesRow::time;
+  const char *const suffix = by_x_g ? "@x_g" : "@time";
+  const double last = fine.back().*place - (by_x_g ? last_part : 0.1 * fine.back().time);
   const std::optional<Peak> peak = entry_peak(fine);
   const std::optional<Peak> coarse_peak = entry_peak(coarse);
-  if (peak && coarse_peak) {
-    error["peak_pressure_drop"] = std::abs(peak->pressure_drop - coarse_peak->pressure_drop);
-    error["x_g_at_peak"] = std::abs(peak->x_g - coarse_peak->x_g);
+  std::map<std::string, double> error;
+  const auto add = [&](const std::string &name, double difference) {
+    error[name] = std::max(error[name], std::abs(difference));
+  };
+  for (const auto &[row, other] : pair_rows(fine, coarse, place)) {
+    for (const Estimated &quantity : estimated) {
+      const double difference = row->*quantity.value - other->*quantity.value;
+      add(std::string(quantity.name) + suffix, difference);
+      if (row->*place >= last || quantity.value == &SeriesRow::time) // the time adds up along the way
+        add(quantity.name, difference);
+    }
+    if (by_x_g)
+      add("x_g@time", (row->time - other->time) * row->v_g);
+    if (peak && coarse_peak && std::abs(row->x_g - peak->x_g) < around_peak)
+      add("peak_pressure_drop", row->pressure_drop - other->pressure_drop);
   }
+  if (peak && coarse_peak)
+    add("x_g_at_peak", peak->x_g - coarse_peak->x_g);
   return error;
 }
 
@@ -388,15 +405,17 @@ Outcome march(const Case &physics, const Checkpoint &from, const Control &contro
     return outcome;
   Control quiet;
   quiet.interrupted = control.interrupted;
-  const Case coarse = companion(marched, outcome.last.series);
+  const Case coarse = companion(marched);
   const Outcome second = March(coarse, {}, quiet, Part::companion).run();
   if (second.status == Status::interrupted)
     outcome.status = Status::interrupted;
   else if (second.status == Status::reached) {
-    outcome.error_estimate = differences(outcome.last.series, second.last.series);
-    if (physics.time.scheme == Scheme::euler) // of order 1: the difference is a third of the fine one's error
-      for (auto &[quantity, error] : outcome.error_estimate)
-        error *= 3;
+    outcome.error_estimate =
+        differences(outcome.last.series, second.last.series, physics.until.x_g.has_value());
+    for (auto &[quantity, error] : outcome.error_estimate)
+      error *= safety(physics.time.scheme);
+    outcome.error_estimate["volume_change"] =
+        std::abs(outcome.last.series.back().volume_change); // exactly none
   } else
     outcome.message = "no error estimate, because the coarse companion failed: " + second.message;
   return outcome;

@@ -21,13 +21,29 @@ std::vector<Capsule> capsules() {
   constexpr LawName neo_hookean = LawName::neo_hookean;
   constexpr LawName skalak = LawName::skalak;
   return {
-      {neo_hookean, 1, 0.8, 1, 0.09, 1, 1e-4}, {neo_hookean, 1, 0.7, 1, 0.06, 1, 1e-3},
-      {neo_hookean, 1, 0.8, 1, 0.09, 5, 1e-5}, {skalak, 0, 0.9, 1, 0.04, 1, 1e-5},
-      {skalak, 0, 0.9, 1, 0.04, 5, 1e-4},      {skalak, 0, 0.9, 1, 0.04, 0.2, 1e-6},
-      {skalak, 0, 0.8, 1, 0.08, 1, 1e-6},      {skalak, 1, 1, 1, 0.05, 1, 1e-4},
-      {skalak, 1, 1.1, 1, 0.02, 1, 1e-3},      {skalak, 1, 0.9, 1, 0.12, 10, 1e-4},
-      {skalak, 0, 0.9, 0.5, 0.04, 1, 1e-4},    {skalak, 0, 0.9, 0.28, 0.04, 1, 1e-3},
-      {skalak, 1, 0.8, 0.28, 0.04, 5, 1e-3},   {neo_hookean, 1, 0.7, 0.5, 0.08, 0.2, 1e-4},
+      {neo_hookean, 1, 0.8, 1, 0.09, 1, 1e-4},
+      {neo_hookean, 1, 0.7, 1, 0.06, 1, 1e-3},
+      {neo_hookean, 1, 0.8, 1, 0.09, 5, 1e-5},
+      {skalak, 0, 0.9, 1, 0.04, 1, 1e-5},
+      {skalak, 0, 0.9, 1, 0.04, 5, 1e-4},
+      {skalak, 0, 0.9, 1, 0.04, 0.2, 1e-6},
+      {skalak, 0, 0.8, 1, 0.08, 1, 1e-6},
+      {skalak, 1, 1, 1, 0.05, 1, 1e-4},
+      {skalak, 1, 1.1, 1, 0.02, 1, 1e-3},
+      {skalak, 1, 0.9, 1, 0.12, 10, 1e-4},
+      {skalak, 0, 0.9, 0.5, 0.04, 1, 1e-4},
+      {skalak, 0, 0.9, 0.28, 0.04, 1, 1e-3},
+      {skalak, 1, 0.8, 0.28, 0.04, 5, 1e-3},
+      {neo_hookean, 1, 0.7, 0.5, 0.08, 0.2, 1e-4},
+      // Not looked at when the factors were chosen:
+      {neo_hookean, 1, 0.9, 1, 0.03, 1, 1e-4},
+      {neo_hookean, 1, 0.5, 1, 0.2, 10, 1e-2},
+      {skalak, 0, 0.7, 1, 0.1, 2, 1e-5},
+      {skalak, 1, 1.05, 1, 0.03, 0.5, 1e-4},
+      {skalak, 3, 0.95, 1, 0.02, 1, 1e-5},
+      {skalak, 0, 0.95, 0.6, 0.05, 3, 1e-3},
+      {skalak, 1, 0.8, 0.4, 0.08, 1, 1e-2},
+      {neo_hookean, 1, 0.75, 1.3, 0.05, 0.2, 1e-3},
   };
 }
 
@@ -70,9 +86,30 @@ struct Verdict {
   bool is_sharp() const { return estimate <= 30 * (difference + floor); }
 };
 
-// What the accuracy asked for speaks of. The others are shown: a single value at the end can be right by accident.
-bool is_promised(const std::string &quantity) {
-  return quantity == "pressure_drop@x_g" || quantity == "v_g@x_g";
+bool is_of_the_way(const std::string &quantity) {
+  return quantity.ends_with("@x_g");
+}
+
+// The error that an estimate speaks of: the largest of all rows, of those around the peak, or of the last ones, and of
+// the value that summary.json reports. The time adds up along the way.
+double error_of(const std::string &quantity, const StudyRun &run, const StudyRun &exact) {
+  if (quantity == "volume_change")
+    return std::abs(run.summary.quantities.at(quantity));
+  const std::string plain = quantity.substr(0, quantity.find('@'));
+  const auto largest = [&](const std::string &name, double from, double to) {
+    return history_difference(run.history, exact.history, name, from, to);
+  };
+  if (is_of_the_way(quantity))
+    return largest(plain, first_x_g, last_x_g);
+  const double of_the_value =
+      std::abs(run.summary.quantities.at(quantity) - exact.summary.quantities.at(quantity));
+  if (quantity == "x_g_at_peak")
+    return of_the_value;
+  if (quantity == "peak_pressure_drop") {
+    const double peak = exact.summary.quantities.at("x_g_at_peak");
+    return std::max(of_the_value, largest("pressure_drop", peak - 0.5, peak + 0.5));
+  }
+  return std::max(of_the_value, largest(quantity, quantity == "time" ? first_x_g : last_x_g - 2, last_x_g));
 }
 
 bool study(const std::string &directory, unsigned jobs) {
@@ -88,7 +125,11 @@ bool study(const std::string &directory, unsigned jobs) {
   Table table("capsule,accuracy,quantity,value,difference,floor,estimate,determined,holds");
   std::string markdown =
       "| capsule | accuracy | quantity | true error | estimate | ratio | |\n|---|---|---|---|---|---|---|\n";
-  bool holds = true;
+  struct Count {
+    int all = 0, too_small = 0, too_large = 0;
+  } ways, values;
+  bool all_reach = true;
+  std::string failing;
   for (std::size_t k = 0; k < capsules().size(); ++k) {
     const Capsule capsule = capsules()[k];
     const Summary &summary = runs[2 * k].summary;
@@ -96,39 +137,47 @@ bool study(const std::string &directory, unsigned jobs) {
     if (summary.error_estimate.empty() || exact.error_estimate.empty()) {
       fmt::print("{}: {} {}; refined: {} {}\n", name_of(capsule), summary.status, summary.message,
                  exact.status, exact.message);
-      holds = false;
+      all_reach = false;
       continue;
     }
     for (const auto &[quantity, estimate] : summary.error_estimate) {
       if (quantity == "x_g" || quantity.starts_with("x_g@")) // where rows are taken
         continue;
-      const bool along = quantity.ends_with("@x_g");
-      const std::string plain = quantity.substr(0, quantity.find('@'));
-      const double value = quantity == "volume_change" ? 0 : exact.quantities.at(plain);
-      const double error =
-          along ? history_difference(runs[2 * k].history, runs[2 * k + 1].history, plain, first_x_g, last_x_g)
-                : std::abs(summary.quantities.at(plain) - value);
       const double floor = quantity == "volume_change" ? 0 : exact.error_estimate.at(quantity);
-      const Verdict verdict{error, floor, estimate};
-      const bool good = verdict.bounds() && verdict.is_sharp();
-      holds = holds && (good || !is_promised(quantity));
+      const Verdict verdict{error_of(quantity, runs[2 * k], runs[2 * k + 1]), floor, estimate};
+      const char *const word = !verdict.bounds()     ? "too small"
+                               : !verdict.is_sharp() ? "more than 30 times"
+                                                     : "";
+      Count &count = is_of_the_way(quantity) ? ways : values;
+      ++count.all;
+      count.too_small += verdict.bounds() ? 0 : 1;
+      count.too_large += verdict.bounds() && !verdict.is_sharp() ? 1 : 0;
+      if (*word != '\0')
+        failing +=
+            fmt::format("{}, accuracy {:.0e}, {}: error {:.1e}, estimate {:.1e}, {}\n", name_of(capsule),
+                        capsule.accuracy, quantity, verdict.difference, estimate, word);
       table.add(fmt::format("{},{:.0e},{},{:.9g},{:.3e},{:.3e},{:.3e},{:d},{:d}", name_of(capsule),
-                            capsule.accuracy, quantity, value, verdict.difference, floor, estimate,
-                            verdict.determined(), good));
+                            capsule.accuracy, quantity,
+                            summary.quantities.at(quantity.substr(0, quantity.find('@'))), verdict.difference,
+                            floor, estimate, verdict.determined(), *word == '\0'));
       markdown += fmt::format("| {} | {:.0e} | {} | {:.1e}{} | {:.1e} | {:.2g} | {} |\n", name_of(capsule),
                               capsule.accuracy, quantity, verdict.difference,
                               verdict.determined() ? "" : fmt::format(" ± {:.1e}", floor), estimate,
-                              estimate / verdict.difference,
-                              good               ? ""
-                              : verdict.bounds() ? "more than 30 times"
-                                                 : "too small");
+                              estimate / verdict.difference, word);
     }
   }
   table.write(directory + "/estimates.csv");
+  const auto told = [](const char *what, const Count &count) {
+    return fmt::format("{} {}: {} too small, {} more than 30 times the error\n", count.all, what,
+                       count.too_small, count.too_large);
+  };
+  const std::string result = told("largest errors along the way", ways) +
+                             told("errors of values at the end and at the peak", values);
   write_atomically("tables/error-estimate.md",
                    "**Error estimates.** Against refined runs; ± is what the refined run leaves open.\n\n" +
-                       markdown);
-  fmt::print("{}error-estimate: {}\n", markdown, holds ? "HOLDS" : "FAILS");
+                       markdown + "\n" + result);
+  const bool holds = all_reach && failing.empty();
+  fmt::print("{}{}error-estimate: {}\n", failing, result, holds ? "HOLDS" : "FAILS");
   return holds;
 }
 
