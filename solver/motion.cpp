@@ -22,6 +22,11 @@ constexpr double volume_drift_bound = 1e-2;
 constexpr int wrinkle_dents = 3;
 constexpr double wrinkle_roughness = 0.4;
 
+// On nodes that were chosen from the accuracy buckles have to be resolved to it.
+double roughness_on_chosen_nodes(double accuracy) {
+  return std::min(wrinkle_roughness, std::cbrt(accuracy));
+}
+
 // A value of x_g or of time at which a row is due.
 struct Station {
   double value;
@@ -59,9 +64,11 @@ enum class Part { leading, companion };
 // The march of one case: integrates, records what is due, and stops.
 class March {
 public:
-  March(const Case &physics, const Checkpoint &from, const Control &control, Part part)
-      : physics_(physics), control_(control), part_(part), dynamics_(make_dynamics(physics)),
-        gauge_(physics, dynamics_.membrane), record_(from) {
+  // roughest: with wrinkle_dents dents the march ends as wrinkled beyond this roughness.
+  March(const Case &physics, const Checkpoint &from, const Control &control, Part part,
+        double roughest = wrinkle_roughness)
+      : physics_(physics), control_(control), part_(part), roughest_(roughest),
+        dynamics_(make_dynamics(physics)), gauge_(physics, dynamics_.membrane), record_(from) {
     const Vector &start = started() ? record_.position : dynamics_.start;
     const bool by_position = physics.until.x_g.has_value();
     by_x_g_ = stations(gauge_.centre(start), row_spacing, physics.until.x_g, physics.output.profiles_at_x_g);
@@ -260,7 +267,7 @@ private:
       throw NumericsFailure("volume",
                             fmt::format("the volume has drifted by {:.2g} %", 100 * row.volume_change),
                             "try a smaller accuracy (or time.tolerance) or a finer mesh.membrane");
-    if (part_ == Part::leading && row.dents >= wrinkle_dents && row.roughness > wrinkle_roughness)
+    if (part_ == Part::leading && row.dents >= wrinkle_dents && row.roughness > roughest_)
       throw NumericsFailure(
           "wrinkled",
           fmt::format("the membrane has wrinkled: {} dents, most of their bending in waves that the "
@@ -277,6 +284,7 @@ private:
   const Case &physics_;
   const Control &control_;
   Part part_;
+  double roughest_;
   Dynamics dynamics_;
   Gauge gauge_;
   Checkpoint record_;
@@ -300,10 +308,12 @@ Case companion(const Case &physics) {
   return coarse;
 }
 
-// So many times the difference of the two marches bounds the error; of Euler's scheme, of order 1, the difference is a
-// ninth of the error.
-double safety(Scheme scheme) {
-  return scheme == Scheme::euler ? 27 : 3;
+// So many times the largest difference of the two marches bounds the error along the way; over a few rows, where all may
+// agree by accident, twice as many. Of Euler's scheme, of order 1, the difference is a ninth of the error.
+constexpr double safety = 3;
+double safety_of(const std::string &quantity, Scheme scheme) {
+  const bool of_the_way = quantity.find('@') != std::string::npos;
+  return safety * (of_the_way ? 1 : 2) * (scheme == Scheme::euler ? 9 : 1);
 }
 
 struct Estimated {
@@ -344,6 +354,36 @@ std::vector<RowPair> pair_rows(const std::vector<SeriesRow> &fine, const std::ve
   return pairs;
 }
 
+// The deformation is of length and diameter, whose errors may cancel in it by accident: they are added.
+double deformation_difference(const SeriesRow &row, const SeriesRow &other) {
+  const auto diameter = [](const SeriesRow &of) {
+    return of.length * (1 - of.deformation) / (1 + of.deformation);
+  };
+  const double sum = row.length + diameter(row);
+  return 2 *
+         (diameter(row) * std::abs(row.length - other.length) +
+          row.length * std::abs(diameter(row) - diameter(other))) /
+         (sum * sum);
+}
+
+// The peak is where the slope vanishes: it moves by the slope's difference over the curvature.
+double shift_of_peak(const std::vector<RowPair> &pairs, const Peak &peak) {
+  double shift = 0;
+  for (std::size_t k = 2; k < pairs.size(); ++k) {
+    const double before = pairs[k - 1].fine->x_g - pairs[k - 2].fine->x_g;
+    const double after = pairs[k].fine->x_g - pairs[k - 1].fine->x_g;
+    const auto rise = [&](std::size_t i, const SeriesRow *RowPair::*march) {
+      return (pairs[i].*march)->pressure_drop - (pairs[i - 1].*march)->pressure_drop;
+    };
+    const double curvature =
+        2 * (rise(k, &RowPair::fine) / after - rise(k - 1, &RowPair::fine) / before) / (before + after);
+    if (std::abs(pairs[k - 1].fine->x_g - peak.x_g) <= row_spacing && curvature < 0)
+      shift = std::max(shift,
+                       std::abs((rise(k, &RowPair::fine) - rise(k, &RowPair::coarse)) / (after * curvature)));
+  }
+  return shift;
+}
+
 // The largest differences of what summary.json reports: along the way, as "v_g@x_g", and, as the plain name, over its
 // last part. A single row may agree by accident.
 std::map<std::string, double> differences(const std::vector<SeriesRow> &fine,
@@ -359,9 +399,12 @@ std::map<std::string, double> differences(const std::vector<SeriesRow> &fine,
   const auto add = [&](const std::string &name, double difference) {
     error[name] = std::max(error[name], std::abs(difference));
   };
-  for (const auto &[row, other] : pair_rows(fine, coarse, place)) {
+  const std::vector<RowPair> pairs = pair_rows(fine, coarse, place);
+  for (const auto &[row, other] : pairs) {
     for (const Estimated &quantity : estimated) {
-      const double difference = row->*quantity.value - other->*quantity.value;
+      const double difference = quantity.value == &SeriesRow::deformation
+                                    ? deformation_difference(*row, *other)
+                                    : row->*quantity.value - other->*quantity.value;
       add(std::string(quantity.name) + suffix, difference);
       if (row->*place >= last || quantity.value == &SeriesRow::time) // the time adds up along the way
         add(quantity.name, difference);
@@ -372,24 +415,31 @@ std::map<std::string, double> differences(const std::vector<SeriesRow> &fine,
       add("peak_pressure_drop", row->pressure_drop - other->pressure_drop);
   }
   if (peak && coarse_peak)
-    add("x_g_at_peak", peak->x_g - coarse_peak->x_g);
+    add("x_g_at_peak", std::max(std::abs(peak->x_g - coarse_peak->x_g), shift_of_peak(pairs, *peak)));
   return error;
 }
 
-// The march that is asked for, on the mesh that it ended on. Wrinkles on a mesh that was chosen from the accuracy may be
-// the mesh's own: then the march begins again on a finer one, once, and what it shows there is believed.
+// The march that is asked for, with the mesh and tolerance that it ended with. Wrinkles on a mesh that was chosen from
+// the accuracy may be the mesh's own, and buckles amplify errors: then the march begins again on a finer one and with
+// shorter steps, once, and what it shows there is believed.
 struct Lead {
   Case physics;
   Outcome outcome;
 };
 Lead lead(const Case &physics, const Checkpoint &from, const Control &control) {
   const bool can_refine = physics.mesh.membrane == 0 && physics.time.scheme == Scheme::bdf;
+  if (!can_refine)
+    return {physics, March(physics, from, control, Part::leading).run()};
+  const Resolution chosen = choose_resolution(physics);
   Case finer = physics;
-  finer.mesh.membrane = 3 * choose_resolution(physics).membrane_nodes / 2;
-  const bool goes_on_finer = can_refine && from.position.size() == 2 * finer.mesh.membrane;
+  finer.mesh.membrane = 3 * chosen.membrane_nodes / 2;
+  if (physics.time.tolerance == 0)
+    finer.time.tolerance = chosen.time_tolerance / 30;
+  const bool goes_on_finer = from.position.size() == 2 * finer.mesh.membrane;
   if (!goes_on_finer) {
-    Outcome outcome = March(physics, from, control, Part::leading).run();
-    if (!can_refine || outcome.failure != "wrinkled")
+    Outcome outcome =
+        March(physics, from, control, Part::leading, roughness_on_chosen_nodes(physics.accuracy)).run();
+    if (outcome.failure != "wrinkled")
       return {physics, std::move(outcome)};
   }
   Outcome outcome = March(finer, goes_on_finer ? from : Checkpoint{}, control, Part::leading).run();
@@ -413,7 +463,7 @@ Outcome march(const Case &physics, const Checkpoint &from, const Control &contro
     outcome.error_estimate =
         differences(outcome.last.series, second.last.series, physics.until.x_g.has_value());
     for (auto &[quantity, error] : outcome.error_estimate)
-      error *= safety(physics.time.scheme);
+      error *= safety_of(quantity, physics.time.scheme);
     outcome.error_estimate["volume_change"] =
         std::abs(outcome.last.series.back().volume_change); // exactly none
   } else
