@@ -29,7 +29,7 @@ Resolution choose_resolution(const Case &physics) {
   flow.near_tolerance = std::min(1e-6, 1e-3 * physics.accuracy);
   if (physics.time.scheme == Scheme::bdf)
     flow.solver_tolerance = 0.03 * resolution.time_tolerance;
-  flow.wall_panel_points = digits > 4.5 || tight ? 12 : digits > 2.5 ? 10 : 8;
+  flow.wall_panel_points = digits > 4.5 || (tight && digits > 2.5) ? 12 : digits > 2.5 || tight ? 10 : 8;
   flow.lip_panel = digits > 5 ? 0.02 : digits > 3.5 ? 0.08 : digits > 2.5 ? 0.16 : 0.32;
   // About two fifths of the wall's points lie in the tube.
   const double tube_points = physics.pore.exit_x * flow.wall_panel_points;
