@@ -123,7 +123,7 @@ private:
     const int more = finer_mesh(nodes());
     if (!may_refine_ || more > most_nodes_of_a_branch)
       return false;
-    const auto finer = system_on_mesh(path_.at(point.parameter), more);
+    const auto finer = system_on_mesh(path_.at(point.parameter), more, state_.system->clustering());
     const auto moved = [&](const Vector &unknowns) {
       return moved_to(finer->membrane().basis, state_.system->membrane().basis, unknowns);
     };

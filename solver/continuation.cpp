@@ -48,8 +48,8 @@ Branch::Branch(SteadySystem &system, Path path, BranchPoint start, const Vector 
                const Steps &steps)
     : system_(&system), path_(std::move(path)), point_(std::move(start)), steps_(steps), step_(steps.first),
       trend_(direction[direction.size() - 1] < 0 ? -1 : 1) {
-  const Corrected first =
-      correct(point_, direction / std::sqrt(weighted(direction, direction)), 0, position_tolerance);
+  const Corrected first = correct(point_, direction / std::sqrt(weighted(direction, direction)), 0,
+                                  position_tolerance, Vector::Zero(direction.size()));
   point_ = first.point;
   tangent_ = first.tangent;
 }
@@ -91,15 +91,17 @@ Vector Branch::parameter_slope(const BranchPoint &at) const {
   return (above - below) / (2 * h);
 }
 
+// The point at a length `step` along the tangent, from a guess that bends away from it.
 Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
-                                  double tolerance) const {
+                                  double tolerance, const Vector &curvature) const {
   constexpr double little = 1e-3; // a correction after which the parameter's column may stay
   const Eigen::Index m = from.unknowns.size();
   const Eigen::Index n = system_->nodes();
   Vector row = Vector::Zero(m + 1);
   row.head(2 * n) = weight_ / static_cast<double>(n) * tangent.head(2 * n);
   row[m] = tangent[m];
-  BranchPoint now{from.unknowns + step * tangent.head(m), from.parameter + step * tangent[m]};
+  const Vector way = step * tangent + step * step / 2 * curvature;
+  BranchPoint now{from.unknowns + way.head(m), from.parameter + way[m]};
   Vector slope;
   double before = 1;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -122,7 +124,10 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     before = length;
     now.unknowns += change.head(m);
     now.parameter += change[m];
-    if (length < tolerance * std::sqrt(weight_)) {
+    const double enough = tolerance * std::sqrt(weight_);
+    // A large slack tells of a coarse mesh only where nothing else is left of it.
+    const bool slack_is_small = std::abs(now.unknowns[m - 1]) <= largest_slack;
+    if (length < (slack_is_small ? enough : enough / 100)) {
       right.setZero();
       right[m] = 1;
       Vector direction = factors.solve(right);
@@ -133,12 +138,24 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
   no_convergence();
 }
 
+// Derivative of the tangent along the branch, from the last two points. It bends the first guess: a thin shell
+// resists any stretch, and a straight displacement that turns parts of it stretches these in second order.
+Vector Branch::curvature() const {
+  if (points_ == 1)
+    return Vector::Zero(tangent_.size());
+  Vector way(tangent_.size());
+  way << point_.unknowns - before_.unknowns, point_.parameter - before_.parameter;
+  const Vector earlier = tangent_before_ / std::sqrt(weighted(tangent_before_, tangent_before_));
+  return (tangent_ - earlier) / weighted(way, tangent_);
+}
+
 void Branch::advance() {
   constexpr double straight = 0.85; // cosine between neighbouring tangents
   balance();
+  const Vector bend = curvature();
   for (;;) {
     try {
-      const Corrected next = correct(point_, tangent_, step_, steps_.tolerance);
+      const Corrected next = correct(point_, tangent_, step_, steps_.tolerance, bend);
       if (weighted(next.tangent, tangent_) > straight) {
         oldest_ = before_;
         before_ = point_;
@@ -197,7 +214,10 @@ BranchPoint Branch::fold() const {
   const double last = along_tangent_before(point_);
   const double first = points_ > 2 ? along_tangent_before(oldest_) : -last;
   const double h = 0.03 * std::min(-first, last);
-  const auto at = [&](double step) { return correct(before_, tangent_before_, step, position_tolerance); };
+  const Vector straight = Vector::Zero(tangent_before_.size());
+  const auto at = [&](double step) {
+    return correct(before_, tangent_before_, step, position_tolerance, straight);
+  };
   const auto by_tangents = [&](double step) { return at(step).tangent[tangent_.size() - 1]; };
   const auto by_differences = [&](double step) {
     return at(step + h).point.parameter - at(step - h).point.parameter;

@@ -1,8 +1,9 @@
 #pragma once
 // Branches of steady states: Newton's method at given parameters, and pseudo-arclength continuation along one
-// parameter, through folds. A point is (unknowns of steady_system.hpp, parameter), and the parameter should be
-// scaled to go through about one. Lengths along a branch add the root mean square displacement of the nodes to
-// it, with a weight that makes both count: a shell that buckles turns a branch within displacements of 1e-3.
+// parameter, through folds, from guesses that bend with the branch. A point is (unknowns of
+// steady_system.hpp, parameter), and the parameter should be scaled to go through about one. Lengths along
+// a branch add the root mean square displacement of the nodes to it, with a weight that makes both count: a
+// shell that buckles turns a branch within displacements of 1e-3.
 #include "steady_system.hpp"
 #include <functional>
 
@@ -27,8 +28,8 @@ public:
   struct Steps {
     double first, largest, tolerance;
   };
-  // `start` is near to a steady state, at the same place along `direction` (changes of the unknowns, then of the
-  // parameter), which also tells the side on which the branch begins.
+  // `start` is near to a steady state, at the same place along `direction` (changes of the unknowns, then
+  // of the parameter), which also tells the side on which the branch begins.
   Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction, const Steps &steps);
   // ... to where the parameter grows.
   static Vector upwards(const SteadySystem &system);
@@ -59,7 +60,9 @@ private:
     Vector tangent;
     int iterations = 0;
   };
-  Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance) const;
+  Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
+                    const Vector &curvature) const;
+  Vector curvature() const;
   Vector parameter_slope(const BranchPoint &at) const;
   double weighted(const Vector &a, const Vector &b) const;
   double along_tangent_before(const BranchPoint &at) const;

@@ -18,9 +18,8 @@ namespace {
 // (1.7 times). A sphere's nodes stay where they are, because the front of a neo-Hookean one may stretch without bound.
 // The angle is a smooth odd function of zeta, so that shapes keep their parities and the basis its exponential
 // convergence.
-Vector clustered(const Vector &zeta, double aspect_ratio) {
-  const double flat = std::max(0.0, 1 - aspect_ratio);
-  return zeta.array() + flat * (0.28 * (2 * zeta.array()).sin() - 0.42 * zeta.array().sin());
+Vector clustered(const Vector &zeta, double clustering) {
+  return zeta.array() + clustering * (0.28 * (2 * zeta.array()).sin() - 0.42 * zeta.array().sin());
 }
 
 Vector start_position(const Membrane &membrane, double start_x) {
@@ -74,8 +73,6 @@ Dynamics standard_dynamics(const Case &physics) {
   const Resolution resolution = choose_resolution(physics);
   Dynamics dynamics;
   dynamics.membrane = standard_membrane(physics, resolution);
-  dynamics.membrane.node_angle = clustered(dynamics.membrane.basis.nodes, physics.capsule.aspect_ratio);
-  take_physics(physics, dynamics.membrane);
   dynamics.start = start_position(dynamics.membrane, physics.capsule.start_x);
   const auto system = std::make_shared<const FlowSystem>(physics, dynamics.membrane.basis, resolution.flow);
   const auto membrane = std::make_shared<const Membrane>(dynamics.membrane);
@@ -124,8 +121,11 @@ Dynamics paper_dynamics(const Case &physics) {
 
 Membrane standard_membrane(const Case &physics, const Resolution &resolution) {
   const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
-  return make_membrane(physics, spectral_basis(resolution.membrane_nodes), energy_rule.nodes,
-                       energy_rule.weights);
+  Membrane membrane = make_membrane(physics, spectral_basis(resolution.membrane_nodes), energy_rule.nodes,
+                                    energy_rule.weights);
+  membrane.node_angle = clustered(membrane.basis.nodes, resolution.clustering);
+  take_physics(physics, membrane);
+  return membrane;
 }
 
 Dynamics make_dynamics(const Case &physics) {

@@ -24,7 +24,7 @@ struct Dynamics {
   std::function<void()> forget;
 };
 
-// The membrane of the standard preset, its nodes where the basis has them.
+// The membrane of the standard preset.
 Membrane standard_membrane(const Case &physics, const Resolution &resolution);
 
 // Builds what stays fixed: reference shape, matrices, the wall's factors and the empty pore's flow.

@@ -16,11 +16,27 @@ double poiseuille(double r) {
   return 2 * (1 - r * r);
 }
 
-// Edges of the wall's panels by arc length from the exit: equal in the tube, halved towards the lip from both
-// sides, and growing with the distance from the lip in the reservoir, where the flow decays like a power.
+// Equal panels in the middle of a tube, or in all of it; longer ones towards its ends, where the disturbance
+// decays like exp(-4.47 d).
+Vector tube_edges(double length, const FlowResolution &resolution) {
+  constexpr double longest = 0.75;
+  const double panel = resolution.wall_panel;
+  const double outside = length / 2 - resolution.fine_half_length;
+  if (outside < panel || panel > longest)
+    return graded_edges(0, length, panel, panel, Graded::last);
+  const Vector first = graded_edges(0, outside, panel, longest, Graded::last);
+  const Vector middle = graded_edges(outside, length - outside, panel, panel, Graded::last);
+  Vector edges(2 * first.size() + middle.size() - 2);
+  edges << first, middle.segment(1, middle.size() - 2), length - first.reverse().array();
+  return edges;
+}
+
+// Edges of the wall's panels by arc length from the exit: those of a tube; or equal in the pore, halved
+// towards the lip from both sides, and growing with the distance from the lip in the reservoir, where the
+// flow decays like a power.
 Vector wall_edges(const Pore &pore, const FlowResolution &resolution) {
   if (pore.shape == PoreShape::tube)
-    return graded_edges(0, pore.entrance_arc, resolution.wall_panel, resolution.wall_panel, Graded::last);
+    return tube_edges(pore.entrance_arc, resolution);
   const double lip = pore.exit_x;
   const Vector tube = graded_edges(0, lip, resolution.lip_panel, resolution.wall_panel, Graded::last);
   const Vector reservoir =

@@ -18,6 +18,7 @@
 #include "layer_potential.hpp"
 #include "meridian.hpp"
 #include "pore.hpp"
+#include <limits>
 
 namespace capsule {
 
@@ -26,7 +27,10 @@ struct FlowResolution {
   int membrane_panel_points = 12;
   double membrane_panel = 0.25; // largest panel in zeta
   int wall_panel_points = 12;
-  double wall_panel = 0.75;        // largest panel in the tube
+  double wall_panel = 0.75; // largest panel in the tube
+  // Of a tube without a mouth: how far the panels are as short as that on both sides of its middle, where a
+  // steady capsule stays; further out they double in length.
+  double fine_half_length = std::numeric_limits<double>::infinity();
   double lip_panel = 0.02;         // panel at the lip
   double near_tolerance = 1e-8;    // of near panels
   double solver_tolerance = 1e-10; // of the velocities that lambda != 1 leaves to an iteration, relative

@@ -7,33 +7,30 @@ namespace {
 
 // Shape and load f = q/eps at points of the meridian, from what they are at the nodes.
 struct Frame {
-  Matrix even[3], odd[3]; // nodes -> points: value and derivatives in zeta
+  const Sampling *at; // the points
   Vector r, arc;
   Vector tangent_x, tangent_r; // downstream; the normal is (-tangent_r, tangent_x)
   Vector turning;              // of the tangent, d alpha/dzeta
   Vector load_tangent, load_normal, load_tangent_zeta, load_normal_zeta;
 };
 
-Frame frame_at(const Vector &zeta, const MeridianBasis &basis, const Vector &position, const Vector &load) {
-  const Eigen::Index n = basis.size();
+Frame frame_at(const Sampling &at, const Vector &position, const Vector &load) {
+  const Eigen::Index n = position.size() / 2;
   Frame frame;
-  for (int d = 0; d < 3; ++d) {
-    frame.even[d] = basis.even(zeta, d);
-    frame.odd[d] = basis.odd(zeta, d);
-  }
-  frame.r = frame.odd[0] * position.tail(n);
-  const Eigen::ArrayXd x_zeta = frame.even[1] * position.head(n);
-  const Eigen::ArrayXd r_zeta = frame.odd[1] * position.tail(n);
-  const Eigen::ArrayXd x_second = frame.even[2] * position.head(n);
-  const Eigen::ArrayXd r_second = frame.odd[2] * position.tail(n);
+  frame.at = &at;
+  frame.r = frame.at->odd[0] * position.tail(n);
+  const Eigen::ArrayXd x_zeta = frame.at->even[1] * position.head(n);
+  const Eigen::ArrayXd r_zeta = frame.at->odd[1] * position.tail(n);
+  const Eigen::ArrayXd x_second = frame.at->even[2] * position.head(n);
+  const Eigen::ArrayXd r_second = frame.at->odd[2] * position.tail(n);
   const Eigen::ArrayXd arc = (x_zeta.square() + r_zeta.square()).sqrt();
   const Eigen::ArrayXd t_x = x_zeta / arc;
   const Eigen::ArrayXd t_r = r_zeta / arc;
   const Eigen::ArrayXd turning = (x_zeta * r_second - r_zeta * x_second) / arc.square();
-  const Eigen::ArrayXd f_x = frame.even[0] * load.head(n);
-  const Eigen::ArrayXd f_r = frame.odd[0] * load.tail(n);
-  const Eigen::ArrayXd f_x_zeta = frame.even[1] * load.head(n);
-  const Eigen::ArrayXd f_r_zeta = frame.odd[1] * load.tail(n);
+  const Eigen::ArrayXd f_x = frame.at->even[0] * load.head(n);
+  const Eigen::ArrayXd f_r = frame.at->odd[0] * load.tail(n);
+  const Eigen::ArrayXd f_x_zeta = frame.at->even[1] * load.head(n);
+  const Eigen::ArrayXd f_r_zeta = frame.at->odd[1] * load.tail(n);
   const Eigen::ArrayXd f_t = f_x * t_x + f_r * t_r;
   const Eigen::ArrayXd f_n = f_r * t_x - f_x * t_r;
   frame.arc = arc;
@@ -67,8 +64,8 @@ Pointwise dyads(const Frame &frame, const Eigen::ArrayXd &tt, const Eigen::Array
 
 // Of the displacement's derivative of this order; 2 points x 2N.
 Matrix of_displacement(const Frame &frame, const Pointwise &map, int derivative) {
-  const Matrix &even = frame.even[derivative];
-  const Matrix &odd = frame.odd[derivative];
+  const Matrix &even = frame.at->even[derivative];
+  const Matrix &odd = frame.at->odd[derivative];
   Matrix result(2 * even.rows(), 2 * even.cols());
   result << map.xx.matrix().asDiagonal() * even, map.xr.matrix().asDiagonal() * odd,
       map.rx.matrix().asDiagonal() * even, map.rr.matrix().asDiagonal() * odd;
@@ -77,11 +74,11 @@ Matrix of_displacement(const Frame &frame, const Pointwise &map, int derivative)
 
 // Change of the area element r s' relative to it, points x 2N.
 Matrix area_change(const Frame &frame) {
-  const Eigen::Index n = frame.even[0].cols();
+  const Eigen::Index n = frame.at->even[0].cols();
   Matrix change(frame.r.size(), 2 * n);
-  change << (frame.tangent_x.array() / frame.arc.array()).matrix().asDiagonal() * frame.even[1],
-      (frame.tangent_r.array() / frame.arc.array()).matrix().asDiagonal() * frame.odd[1];
-  change.rightCols(n) += frame.r.cwiseInverse().asDiagonal() * frame.odd[0];
+  change << (frame.tangent_x.array() / frame.arc.array()).matrix().asDiagonal() * frame.at->even[1],
+      (frame.tangent_r.array() / frame.arc.array()).matrix().asDiagonal() * frame.at->odd[1];
+  change.rightCols(n) += frame.r.cwiseInverse().asDiagonal() * frame.at->odd[0];
   return change;
 }
 
@@ -100,17 +97,17 @@ Matrix nodal_load_change(const Membrane &membrane, const Vector &position, const
   return change;
 }
 
-// f' of the head comment at points: the change of the load and of the area that it acts on, less the stress of its
-// jump on the strips that the displacement sweeps.
+// f' of the head comment at points: the change of the load and of the area that it acts on, less the stress
+// of its jump on the strips that the displacement sweeps.
 Matrix carried_load_change(const Frame &frame, const Matrix &nodal_change, const Vector &load) {
   const Eigen::Index points = frame.r.size();
-  const Eigen::Index n = frame.even[0].cols();
+  const Eigen::Index n = frame.at->even[0].cols();
   const Matrix area = area_change(frame);
   Matrix change(2 * points, 2 * n);
-  change.topRows(points) = frame.even[0] * nodal_change.topRows(n);
-  change.bottomRows(points) = frame.odd[0] * nodal_change.bottomRows(n);
-  change.topRows(points) += (frame.even[0] * load.head(n)).asDiagonal() * area;
-  change.bottomRows(points) += (frame.odd[0] * load.tail(n)).asDiagonal() * area;
+  change.topRows(points) = frame.at->even[0] * nodal_change.topRows(n);
+  change.bottomRows(points) = frame.at->odd[0] * nodal_change.bottomRows(n);
+  change.topRows(points) += (frame.at->even[0] * load.head(n)).asDiagonal() * area;
+  change.bottomRows(points) += (frame.at->odd[0] * load.tail(n)).asDiagonal() * area;
 
   const auto r = frame.r.array();
   const auto arc = frame.arc.array();
@@ -142,31 +139,61 @@ Matrix beyond_nodes(const Frame &at_panels, const Matrix &panel_field, const Mat
   const Eigen::Index n = nodal_field.rows() / 2;
   const Eigen::Index points = panel_field.rows() / 2;
   Matrix rest = panel_field;
-  rest.topRows(points) -= at_panels.even[0] * nodal_field.topRows(n);
-  rest.bottomRows(points) -= at_panels.odd[0] * nodal_field.bottomRows(n);
+  rest.topRows(points) -= at_panels.at->even[0] * nodal_field.topRows(n);
+  rest.bottomRows(points) -= at_panels.at->odd[0] * nodal_field.bottomRows(n);
   return rest;
+}
+
+// d.grad u of the inner flow, which the shear inside, the velocity along the meridian and the constant
+// volume of the liquid tell.
+Matrix advance_of_inner_flow(const Frame &at_nodes, const Vector &shear, const Vector &velocity) {
+  const Eigen::Index n = at_nodes.r.size();
+  const auto t_x = at_nodes.tangent_x.array();
+  const auto t_r = at_nodes.tangent_r.array();
+  const Eigen::ArrayXd along_x = (at_nodes.at->even[1] * velocity.head(n)).array() / at_nodes.arc.array();
+  const Eigen::ArrayXd along_r = (at_nodes.at->odd[1] * velocity.tail(n)).array() / at_nodes.arc.array();
+  const Eigen::ArrayXd along_t = along_x * t_x + along_r * t_r;
+  const Eigen::ArrayXd along_n = along_r * t_x - along_x * t_r;
+  const Eigen::ArrayXd across_t = shear.array() - along_n;
+  const Eigen::ArrayXd across_n = -along_t - velocity.tail(n).array() / at_nodes.r.array();
+  return of_displacement(at_nodes, dyads(at_nodes, along_t, across_t, along_n, across_n), 0);
+}
+
+// t.sigma n inside: the traction that goes with the velocity there, S sigma n/(8 pi) = v/2 - D v; a
+// pressure is free in it.
+Vector inner_shear(const FlowSystem::Layers &layers, const Frame &at_nodes, const Vector &area,
+                   const Vector &velocity) {
+  const Eigen::Index n = area.size();
+  Vector normal(2 * n);
+  normal << -at_nodes.tangent_r, at_nodes.tangent_x;
+  Matrix single = layers.single;
+  single += normal * normal.cwiseProduct(area.replicate(2, 1)).transpose();
+  const Vector traction = single.partialPivLu().solve(0.5 * velocity - layers.dbl * velocity);
+  return traction.head(n).cwiseProduct(at_nodes.tangent_x) +
+         traction.tail(n).cwiseProduct(at_nodes.tangent_r);
 }
 
 } // namespace
 
 LinearMotion linear_motion(const FlowSystem &flow, const FlowSystem::Interaction &shape,
-                           const Membrane &membrane, const Vector &position, double capillary_number) {
+                           const Membrane &membrane, const Sampling &panels, const Vector &position,
+                           const Vector &velocity, double capillary_number) {
   const Vector load = membrane_load(membrane, position) / capillary_number;
-  const Frame at_nodes = frame_at(membrane.basis.nodes, membrane.basis, position, load);
-  const Frame at_panels = frame_at(flow.panel_points(), membrane.basis, position, load);
+  const Frame at_nodes = frame_at(membrane.at_nodes, position, load);
+  const Frame at_panels = frame_at(panels, position, load);
   const Matrix nodal_change = nodal_load_change(membrane, position, at_nodes, load, capillary_number);
   const Matrix change = carried_load_change(at_nodes, nodal_change, load);
   const Matrix jump = slip(at_nodes);
 
-  LinearMotion motion;
-  FlowSystem::Layers layers = flow.layers(shape);
-  motion.double_layer = std::move(layers.dbl);
-  motion.equal_viscosities =
-      layers.single * change - 0.5 * jump - motion.double_layer * jump +
+  const FlowSystem::Layers layers = flow.layers(shape);
+  const Vector shear = inner_shear(layers, at_nodes, nodal_area(membrane, position), velocity);
+  Matrix equal_viscosities =
+      layers.single * change - 0.5 * jump - layers.dbl * jump +
       shape.single_mm * beyond_nodes(at_panels, carried_load_change(at_panels, nodal_change, load), change) /
           (8 * std::numbers::pi) -
-      shape.double_mm * beyond_nodes(at_panels, slip(at_panels), jump);
-  return motion;
+      shape.double_mm * beyond_nodes(at_panels, slip(at_panels), jump) +
+      advance_of_inner_flow(at_nodes, shear, velocity);
+  return {std::move(equal_viscosities), layers.dbl};
 }
 
 } // namespace capsule

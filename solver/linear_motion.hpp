@@ -10,8 +10,8 @@
 // shape and load are integrated as they are at the quadrature points, not as interpolants of nodal values:
 // with one derivative of the load more than the motion has, those would be the worst resolved part. So this is
 // the derivative of the discrete motion up to errors of quadrature, but for the wall's answers, which come
-// from nodal values. At shapes whose nodes still move in the capsule's frame the result is in error by as
-// much as they move.
+// from nodal values. For lambda = 1 this is so for any other shape as well, but for the gradient of the
+// inner flow, through which the nodes are displaced: d.grad u is added.
 #include "flow_system.hpp"
 #include "membrane.hpp"
 
@@ -22,8 +22,10 @@ struct LinearMotion {
   Matrix double_layer;      // D
 };
 
-// `flow` is a system with epsilon = 1 and lambda = 1, `shape` its interact_in_full(position).
+// `flow` is a system with epsilon = 1 and lambda = 1, `shape` its interact_in_full(position), `panels` its
+// panel_points, `velocity` that of the nodes.
 LinearMotion linear_motion(const FlowSystem &flow, const FlowSystem::Interaction &shape,
-                           const Membrane &membrane, const Vector &position, double capillary_number);
+                           const Membrane &membrane, const Sampling &panels, const Vector &position,
+                           const Vector &velocity, double capillary_number);
 
 } // namespace capsule

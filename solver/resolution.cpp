@@ -18,6 +18,8 @@ Resolution choose_resolution(const Case &physics) {
           ? physics.mesh.membrane
           : static_cast<int>(std::lround((20 - 5.5 * std::max(0.0, 1 - aspect)) * std::max(digits, 2.8) *
                                          std::pow(flatness, 0.72)));
+  if (physics.flow.type == FlowType::pore) // an extension folds no rear
+    resolution.clustering = std::max(0.0, 1 - aspect);
   const int nodes = resolution.membrane_nodes;
   resolution.energy_points = nodes * 5 / 4 + 8;
   resolution.time_tolerance =

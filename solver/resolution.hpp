@@ -7,6 +7,7 @@ namespace capsule {
 
 struct Resolution {
   int membrane_nodes = 64; // N
+  double clustering = 0;   // of the nodes where the rear of a flat capsule folds, 1 - A/B
   int energy_points = 160; // where the elastic energy is sampled
   int wall_points = 400;   // N_B, about
   FlowResolution flow;

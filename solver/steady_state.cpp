@@ -52,14 +52,20 @@ int first_nodes(const Case &physics) {
   return physics.mesh.membrane > 0 ? std::min(nodes, physics.mesh.membrane) : nodes;
 }
 
-Resolution resolution_of(const Case &physics, int nodes) {
+Resolution resolution_of(const Case &physics, int nodes, double clustering) {
   Case on_nodes = physics;
   on_nodes.mesh.membrane = nodes;
   Resolution resolution = choose_resolution(on_nodes);
+  resolution.clustering = clustering;
   // Newton's method needs a residual that is smooth where a panel becomes a near one.
   resolution.flow.near_tolerance = std::min(1e-9, resolution.flow.near_tolerance);
   resolution.flow.wall_panel *= std::min(1.0, 80 * sharpness(physics) / nodes);
   return resolution;
+}
+
+// The first mesh for a case on the way to another.
+std::shared_ptr<SteadySystem> first_system(const Case &physics, const Case &target) {
+  return system_on_mesh(physics, first_nodes(target), choose_resolution(target).clustering);
 }
 
 } // namespace
@@ -100,14 +106,14 @@ int finer_mesh(int nodes) {
   return static_cast<int>(std::ceil(mesh_growth * nodes));
 }
 
-std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes) {
-  return std::make_shared<SteadySystem>(physics, resolution_of(physics, nodes));
+std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, double clustering) {
+  return std::make_shared<SteadySystem>(physics, resolution_of(physics, nodes, clustering));
 }
 
 namespace {
 
 SteadyState straight_to_mesh(const Case &physics, int nodes, const SteadyState &state) {
-  SteadyState moved{system_on_mesh(physics, nodes), {}};
+  SteadyState moved{system_on_mesh(physics, nodes, state.system->clustering()), {}};
   const Vector guess =
       moved_to(moved.system->membrane().basis, state.system->membrane().basis, state.unknowns);
   moved.unknowns = solve_steady(*moved.system, guess, position_tolerance);
@@ -165,7 +171,7 @@ public:
     number(bending_key, now_) = std::max(stiff_bending, physics.membrane.bending_ratio);
     if (physics.pore.shape != PoreShape::none)
       number(size_key, now_) = std::min(small_radius, physics.capsule.radius);
-    state_.system = system_on_mesh(now_, first_nodes(physics));
+    state_.system = first_system(now_, target_);
     state_.unknowns = solve_steady(*state_.system, state_.system->undeformed(), position_tolerance);
   }
 
@@ -233,8 +239,7 @@ private:
       throw NumericsFailure("unresolved",
                             fmt::format("the branch does not end beyond {}", leg.text(reached_)),
                             "try a finer mesh.membrane or a larger membrane.bending_ratio");
-    throw NumericsFailure("fold", fmt::format("no steady state: fold at {}", turned_at),
-                          "stay on the near side of it");
+    throw NumericsFailure("fold", fmt::format("fold at {}", turned_at), "stay on the near side of it");
   }
 
   double largest_stretch_of(const BranchPoint &point) const {
@@ -249,21 +254,14 @@ private:
   SteadyState state_;
 };
 
-// First the flow, then size and shape; the bending stiffness last, because soft shells buckle on the way.
-SteadyState by_the_flow_first(const Case &physics, const Control &control) {
+// Size, shape and bending stiffness in a flow of given strength: where it is not too weak, a shell gets
+// thin without buckling.
+Way by_way_of(double strength, const Case &physics, const Control &control) {
   Way way(physics, control);
-  for (const char *key : {flow_key, size_key, shape_key, bending_key})
+  way.go(flow_key, strength);
+  for (const char *key : {size_key, shape_key, bending_key})
     way.go(key, number(key, physics));
-  return way.state();
-}
-
-// The flow at last, so that a fold is met in the capillary number.
-SteadyState by_the_flow_last(const Case &physics, double first_flow, const Control &control) {
-  Way way(physics, control);
-  way.go(flow_key, first_flow);
-  for (const char *key : {size_key, shape_key, bending_key, flow_key})
-    way.go(key, number(key, physics));
-  return way.state();
+  return way;
 }
 
 // Values at ascending `at` from values f at ascending S, by the cubic through the four nearest points.
@@ -322,6 +320,12 @@ bool agree(const SeriesRow &a, const SeriesRow &b, double accuracy) {
          near(&SeriesRow::front_stretch, a.front_stretch, 1);
 }
 
+std::string poorly_resolved(int nodes) {
+  return fmt::format("meshes up to {} nodes differ by more than the accuracy asked for; a larger "
+                     "membrane.bending_ratio has smoother shapes",
+                     nodes);
+}
+
 // What a state looks like with its centre at x = 0.
 struct Portrait {
   SeriesRow row;
@@ -345,45 +349,55 @@ Portrait portray(const SteadyState &state) {
 
 SteadyState find_steady(const Case &physics, const std::optional<Profile> &from, const Control &control) {
   if (from) {
-    SteadyState state{std::make_shared<SteadySystem>(physics, resolution_of(physics, first_nodes(physics))),
-                      {}};
+    SteadyState state{first_system(physics, physics), {}};
     state.unknowns =
         solve_steady(*state.system, nodes_on(*from, state.system->membrane()), position_tolerance);
     return state;
   }
+  std::optional<NumericsFailure> first;
   const double flow = physics.flow.capillary_number;
-  try {
-    return by_the_flow_first(physics, control);
-  } catch (const NumericsFailure &) {
-    for (const double part : {0.25, 0.06})
-      try {
-        return by_the_flow_last(physics, part * flow, control);
-      } catch (const NumericsFailure &failure) {
-        if (failure.kind == "fold" && std::string_view(failure.what()).find(flow_key) != std::string::npos)
-          throw;
-      }
-    throw;
+  for (const double strength : {std::clamp(flow, 0.03, 0.06), 0.02, 0.12}) {
+    bool stronger = false; // only the flow is left to grow
+    try {
+      Way way = by_way_of(strength, physics, control);
+      stronger = flow > strength;
+      way.go(flow_key, flow);
+      return way.state();
+    } catch (const NumericsFailure &failure) {
+      if (stronger && failure.kind == "fold")
+        throw NumericsFailure("fold", fmt::format("no steady state: {}", failure.what()), failure.advice);
+      if (!first)
+        first = failure;
+    }
   }
+  throw NumericsFailure(first->kind == "fold" ? "unresolved" : first->kind,
+                        fmt::format("no way found from a small stiff sphere: {}", first->what()),
+                        first->kind == "fold" ? "try a larger membrane.bending_ratio" : first->advice);
 }
 
 RefinedState refine(const Case &physics, const SteadyState &state, const Control &control) {
   const bool given = physics.mesh.membrane > 0;
-  RefinedState refined{given ? on_mesh(physics, 3 * physics.mesh.membrane / 4, state) : state, {}, ""};
+  RefinedState refined{given ? on_mesh(physics, physics.mesh.membrane, state) : state, {}, ""};
+  auto nodes = static_cast<int>(refined.state.system->nodes());
   SeriesRow row = portray(refined.state).row;
+  if (given || finer_mesh(nodes) > most_nodes) { // the finest, of which a coarser one tells the error
+    const SeriesRow coarse = portray(on_mesh(physics, 3 * nodes / 4, refined.state)).row;
+    refined.error_estimate = differences(row, coarse);
+    if (!given && !agree(row, coarse, physics.accuracy))
+      refined.warning = poorly_resolved(nodes);
+    return refined;
+  }
   for (;;) {
     listen(control);
-    const auto now = static_cast<int>(refined.state.system->nodes());
-    const int nodes = given ? physics.mesh.membrane : finer_mesh(now);
+    nodes = finer_mesh(nodes);
     refined.state = on_mesh(physics, nodes, refined.state);
     const SeriesRow before = row;
     row = portray(refined.state).row;
     refined.error_estimate = differences(row, before);
-    if (given || agree(row, before, physics.accuracy))
+    if (agree(row, before, physics.accuracy))
       return refined;
     if (finer_mesh(nodes) > most_nodes) {
-      refined.warning = fmt::format("meshes of {} and {} nodes differ by more than the accuracy asked for; a "
-                                    "larger membrane.bending_ratio has smoother shapes",
-                                    now, nodes);
+      refined.warning = poorly_resolved(nodes);
       return refined;
     }
   }

@@ -1,7 +1,7 @@
 #pragma once
 // The steady shape of a case without marching in time, from nothing or from a profile: branches
-// (continuation.hpp) lead from a small stiff sphere in a weak flow to the case's capsule, one key after the
-// other, and the mesh is refined until two agree.
+// (continuation.hpp) lead from a small stiff sphere to the case's capsule, one key after the other in a
+// flow of some strength, the capillary number last, and the mesh is refined until two agree.
 #include "continuation.hpp"
 #include "motion.hpp"
 #include <map>
@@ -33,8 +33,9 @@ struct SteadyState {
 };
 
 // A case's steady state on a first mesh; `from` is any shape of the same capsule near to it. Throws
-// NumericsFailure, of the kind "fold" when there is none because the branch turns back: the text says at which
-// value of which key.
+// NumericsFailure, of the kind "fold" when there is none because the branch of growing capillary numbers
+// turns back: the text says where. A turn of another key on the way to the case is no statement about it,
+// and "unresolved".
 SteadyState find_steady(const Case &physics, const std::optional<Profile> &from, const Control &control);
 
 struct RefinedState {
@@ -55,8 +56,9 @@ struct SteadyRecord {
 };
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
 
-// The equations of a case on a mesh of so many nodes.
-std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes);
+// The equations of a case on a mesh of so many nodes, which are as dense at the rear as resolution.hpp
+// says: shapes go from one mesh to another only if both are clustered alike.
+std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, double clustering);
 // The state on another mesh. Throws NumericsFailure("unresolved").
 SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state);
 // Unknowns, or changes of them, on other nodes.

@@ -3,7 +3,9 @@
 #include "failure.hpp"
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <vector>
 
 namespace capsule {
 namespace {
@@ -22,18 +24,26 @@ Case scene_of(const Case &physics) {
   return scene;
 }
 
+// Half the length of the tube for a capsule whose tips are as far from its centre: with room to grow.
+double tube_for(double tip) {
+  return 1.25 * tip + wall_beyond;
+}
+
 } // namespace
 
 SteadySystem::SteadySystem(const Case &physics, const Resolution &resolution)
     : scene_(scene_of(physics)), resolution_(resolution), membrane_(standard_membrane(physics, resolution)) {
   take(physics);
-  half_length_ = wall_beyond + 1.5;
+  half_length_ = tube_for(membrane_.reference.head(nodes()).cwiseAbs().maxCoeff());
   build_flow();
+  const Vector points = flow_->panel_points();
+  panels_ = sample(membrane_.basis, points, Vector());
 }
 
 void SteadySystem::build_flow() {
   scene_.pore.exit_x = half_length_;
   scene_.pore.entrance_distance = half_length_;
+  resolution_.flow.fine_half_length = half_length_ - wall_beyond;
   flow_.emplace(scene_, membrane_.basis, resolution_.flow);
 }
 
@@ -59,7 +69,7 @@ void SteadySystem::fit_tube(const Vector &unknowns) {
   const double tip = unknowns.head(nodes()).cwiseAbs().maxCoeff();
   if (tip + wall_beyond < half_length_)
     return;
-  half_length_ = 1.25 * tip + wall_beyond;
+  half_length_ = tube_for(tip);
   build_flow();
 }
 
@@ -142,9 +152,11 @@ SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) cons
   FlowSystem::Memory unused;
   const FlowSystem::Interaction shape = flow_->interact_in_full(position);
   const Vector load = membrane_load(membrane_, position) / capillary_number_;
-  LinearMotion motion = linear_motion(*flow_, shape, membrane_, position, capillary_number_);
+  const Vector velocity = flow_->flow(shape, load, unused).velocity;
+  LinearMotion motion =
+      linear_motion(*flow_, shape, membrane_, panels_, position, velocity, capillary_number_);
   Linearisation result;
-  result.residual = equations(unknowns, flow_->flow(shape, load, unused).velocity);
+  result.residual = equations(unknowns, velocity);
   result.double_layer = std::move(motion.double_layer);
   Matrix &jacobian = result.jacobian;
   jacobian = Matrix::Zero(2 * n + 2, 2 * n + 2);
@@ -159,35 +171,71 @@ SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) cons
   return result;
 }
 
-Matrix SteadySystem::small_motion(const Linearisation &linear, double viscosity_ratio) const {
+// What v' of linear_motion.hpp is multiplied with; the identity for equal viscosities.
+Matrix SteadySystem::velocity_operator(const Linearisation &linear, double viscosity_ratio) const {
   const Eigen::Index n2 = 2 * nodes();
-  const auto motion = linear.jacobian.topLeftCorner(n2, n2);
-  if (viscosity_ratio == 1)
-    return motion;
-  return ((1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio - 1) * linear.double_layer)
-      .partialPivLu()
-      .solve(motion);
+  return (1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio - 1) * linear.double_layer;
 }
 
 Matrix SteadySystem::small_motion(const Vector &unknowns, double viscosity_ratio) const {
-  return small_motion(linearise(unknowns), viscosity_ratio);
-}
-
-Eigen::VectorXcd SteadySystem::growth_rates(const Vector &unknowns, double viscosity_ratio) const {
   const Eigen::Index n2 = 2 * nodes();
   const Linearisation linear = linearise(unknowns);
-  Matrix motion = small_motion(linear, viscosity_ratio);
-  // Displacements that keep centre and volume, seen from the centre; along the columns of the border.
-  const Matrix constraints = linear.jacobian.bottomLeftCorner(2, n2);
-  const Matrix border = linear.jacobian.topRightCorner(n2, 2);
-  motion -= border * (constraints * border).partialPivLu().solve(constraints * motion);
-  const Eigen::HouseholderQR<Matrix> qr(constraints.transpose());
-  const Matrix all = qr.householderQ() * Matrix::Identity(n2, n2);
-  const auto allowed = all.rightCols(n2 - 2);
-  Eigen::VectorXcd rates =
-      Eigen::EigenSolver<Matrix>(allowed.transpose() * motion * allowed, false).eigenvalues();
+  return velocity_operator(linear, viscosity_ratio)
+      .partialPivLu()
+      .solve(linear.jacobian.topLeftCorner(n2, n2));
+}
+
+// Arnoldi's method on the inverse: the displacement that keeps centre and volume and whose rate, seen from the
+// centre, is given. The bordered matrix of Newton's method is what to solve with; its border, along which
+// centre and volume are corrected, belongs to the velocity and goes with it to the other viscosity ratio.
+Eigen::VectorXcd SteadySystem::growth_rates(const Vector &unknowns, double viscosity_ratio) const {
+  constexpr Eigen::Index most_vectors = 80;
+  constexpr double converged = 1e-8; // relative residual of an eigenvalue
+  const Eigen::Index n2 = 2 * nodes();
+  Linearisation linear = linearise(unknowns);
+  const Matrix on_velocity = velocity_operator(linear, viscosity_ratio);
+  linear.jacobian.topRightCorner(n2, 2) = on_velocity * Matrix(linear.jacobian.topRightCorner(n2, 2));
+  const Eigen::PartialPivLU<Matrix> factors(linear.jacobian);
+  const auto inverse = [&](const Vector &rate) -> Vector {
+    Vector right = Vector::Zero(n2 + 2);
+    right.head(n2) = on_velocity * rate;
+    return factors.solve(right).head(n2);
+  };
+  const Eigen::Index m = std::min(most_vectors, n2 - 2);
+  Matrix basis(n2, m + 1);
+  Matrix hessenberg = Matrix::Zero(m + 1, m);
+  const auto zeta = membrane_.basis.nodes.array();
+  Vector any(n2); // with a share of every wave
+  any << (1 / (1.25 - zeta.cos())), (zeta.sin() / (1.25 - (zeta + 0.3).cos()));
+  basis.col(0) = inverse(any).normalized();
+  Eigen::Index size = 0;
+  while (size < m) {
+    Vector next = inverse(basis.col(size));
+    const double length = next.norm();
+    for (int again = 0; again < 2; ++again) {
+      const Vector parts = basis.leftCols(size + 1).transpose() * next;
+      next -= basis.leftCols(size + 1) * parts;
+      hessenberg.col(size).head(size + 1) += parts;
+    }
+    const double rest = next.norm();
+    hessenberg(size + 1, size) = rest;
+    ++size;
+    if (rest < 1e-14 * length) // the space is invariant: all its eigenvalues are exact
+      break;
+    basis.col(size) = next / rest;
+  }
+  const Eigen::EigenSolver<Matrix> eigen(hessenberg.topLeftCorner(size, size));
+  std::vector<std::complex<double>> rates;
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const std::complex<double> value = eigen.eigenvalues()[k];
+    const double residual = hessenberg(size, size - 1) * std::abs(eigen.eigenvectors()(size - 1, k));
+    if (residual < converged * std::abs(value))
+      rates.push_back(1.0 / value);
+  }
+  if (rates.empty())
+    throw NumericsFailure("unresolved", "the growth rates do not converge", "try a finer mesh.membrane");
   std::sort(rates.begin(), rates.end(), [](const auto &a, const auto &b) { return a.real() > b.real(); });
-  return rates;
+  return Eigen::Map<Eigen::VectorXcd>(rates.data(), std::ssize(rates));
 }
 
 FlowState SteadySystem::flow(const Vector &position) const {

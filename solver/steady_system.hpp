@@ -27,6 +27,7 @@ public:
   Eigen::Index nodes() const { return membrane_.basis.size(); }
   Vector undeformed() const; // unknowns
   const Membrane &membrane() const { return membrane_; }
+  double clustering() const { return resolution_.clustering; }
   const Case &scene() const { return scene_; } // with the tube that stands for the pore
 
   // Builds a longer tube if the membrane has come too near to its ends.
@@ -45,14 +46,15 @@ public:
 
   // d velocity/d position of the nodes at a steady state, 2N x 2N, for any viscosity ratio.
   Matrix small_motion(const Vector &unknowns, double viscosity_ratio) const;
-  // Growth rates of small motions, largest first, without displacement along the axis and change of volume,
-  // for any viscosity ratio; per unit of time.
+  // Growth rates of the slowest small motions, those of smallest modulus (30 or more of them), per unit of
+  // time and largest real part first; without displacement along the axis and change of volume. To 1e-8
+  // relative. Throws NumericsFailure("unresolved") if none converges.
   Eigen::VectorXcd growth_rates(const Vector &unknowns, double viscosity_ratio) const;
 
   FlowState flow(const Vector &position) const; // with both pressure drops
 
 private:
-  Matrix small_motion(const Linearisation &linear, double viscosity_ratio) const;
+  Matrix velocity_operator(const Linearisation &linear, double viscosity_ratio) const;
   void build_flow();
   Vector equations(const Vector &unknowns, const Vector &velocity) const;
   Eigen::Matrix<double, 2, Eigen::Dynamic> constraint_slopes(const Vector &position) const;
@@ -65,6 +67,7 @@ private:
   double half_length_ = 0; // of the tube
   Membrane membrane_;
   std::optional<FlowSystem> flow_;
+  Sampling panels_; // the flow's quadrature points on the membrane
 };
 
 } // namespace capsule

@@ -2,8 +2,10 @@
 #include "dynamics.hpp"
 #include "failure.hpp"
 #include "steady_state.hpp"
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 using namespace capsule;
@@ -102,8 +104,8 @@ BOOST_AUTO_TEST_CASE(linear_motion_is_the_derivative_of_the_motion) {
   }
 }
 
-// In an extension, as everything is displaced by e_x, the flow changes by e_x and by nothing else: on a slender shape,
-// whose load is hard to resolve at the tips.
+// In an extension, as everything is displaced by e_x, the flow changes by e_x and by nothing else: on a
+// slender shape, whose load is hard to resolve at the tips.
 BOOST_AUTO_TEST_CASE(displacement_along_the_axis_of_an_extension) {
   Case physics = extension_case(LawName::neo_hookean, 1, 0.3);
   physics.membrane.bending_ratio = 1e-2;
@@ -113,6 +115,61 @@ BOOST_AUTO_TEST_CASE(displacement_along_the_axis_of_an_extension) {
   direction.head(n).setOnes();
   const Vector change = state.system->small_motion(state.unknowns, 1) * direction;
   BOOST_TEST((change - direction).cwiseAbs().maxCoeff() < 1e-6);
+}
+
+// Newton's matrix is the derivative of the equations about any shape, steady or not, in the tube and in the
+// unbounded liquid: against differences of the residual about a shape whose nodes move as fast as the flow.
+BOOST_AUTO_TEST_CASE(newtons_matrix_is_the_derivative_of_the_equations) {
+  for (const bool unbounded : {false, true}) {
+    Case physics = unbounded ? extension_case(LawName::neo_hookean, 0, 0.05)
+                             : tube_case(LawName::neo_hookean, 0.7, 0.05, 1e-2);
+    physics.membrane.bending_ratio = 1e-2;
+    physics.accuracy = 1e-6;
+    const auto system = system_on_mesh(physics, 56, 0);
+    const Eigen::Index n = system->nodes();
+    const auto zeta = system->membrane().basis.nodes.array();
+    Vector unknowns = system->undeformed();
+    unknowns.head(n).array() += 0.02 * (3 * zeta).cos() + 0.03 * (2 * zeta).cos();
+    unknowns.segment(n, n).array() += 0.02 * zeta.sin() - 0.01 * (4 * zeta).sin();
+    system->fit_tube(unknowns);
+    Vector direction = Vector::Zero(2 * n + 2);
+    direction.head(n) = (2 * zeta).cos() + 0.3 * (3 * zeta).cos();
+    direction.segment(n, n) = zeta.sin() - 0.4 * (4 * zeta).sin();
+    constexpr double h = 1e-4;
+    const auto at = [&](double step) { return system->residual(unknowns + step * h * direction); };
+    const Vector differences = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
+    const SteadySystem::Linearisation linear = system->linearise(unknowns);
+    BOOST_TEST(linear.residual.cwiseAbs().maxCoeff() > 0.3);
+    BOOST_TEST((linear.jacobian * direction - differences).cwiseAbs().maxCoeff() <
+               1e-5 * differences.cwiseAbs().maxCoeff());
+  }
+}
+
+// The slowest rates are eigenvalues of the whole matrix of small motions, projected on the displacements
+// that keep centre and volume; also where the mesh has fewer waves than Arnoldi's method vectors.
+BOOST_AUTO_TEST_CASE(growth_rates_are_eigenvalues) {
+  for (const int nodes : {36, 60}) {
+    Case physics = tube_case(LawName::neo_hookean, 0.7, 0.05, 1e-2);
+    physics.mesh.membrane = nodes;
+    const SteadyState state = on_mesh(physics, nodes, find_steady(physics, {}, {}));
+    const Eigen::Index n2 = 2 * state.system->nodes();
+    const Matrix jacobian = state.system->linearise(state.unknowns).jacobian;
+    const Matrix constraints = jacobian.bottomLeftCorner(2, n2);
+    const Matrix border = jacobian.topRightCorner(n2, 2);
+    const Matrix all = Eigen::HouseholderQR<Matrix>(constraints.transpose()).householderQ();
+    const Matrix allowed = all.rightCols(n2 - 2);
+    for (const double lambda : {1.0, 5.0}) {
+      Matrix motion = state.system->small_motion(state.unknowns, lambda);
+      motion -= border * (constraints * border).partialPivLu().solve(constraints * motion);
+      Eigen::VectorXcd dense =
+          Eigen::EigenSolver<Matrix>(allowed.transpose() * motion * allowed, false).eigenvalues();
+      std::sort(dense.begin(), dense.end(), [](const auto &a, const auto &b) { return a.real() > b.real(); });
+      const Eigen::VectorXcd rates = state.system->growth_rates(state.unknowns, lambda);
+      BOOST_TEST(rates.size() >= 30);
+      for (Eigen::Index k = 0; k < 12; ++k)
+        BOOST_TEST(std::abs(rates[k] - dense[k]) < 1e-7 * std::abs(dense[k]));
+    }
+  }
 }
 
 // Two meshes of which neither knows the other.
