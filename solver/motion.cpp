@@ -177,6 +177,7 @@ private:
     }
     record_.time = integrator.time();
     record_.position = integrator.state_at(integrator.time());
+    require_film(gauge_.film(record_.position));
     if (control_.save)
       control_.save(record_);
     return std::nullopt;
@@ -241,6 +242,13 @@ private:
     return time;
   }
 
+  // The equations look at the nodes. Between them a thin film may be gone, and then they go on in ever shorter steps.
+  static void require_film(double film) {
+    if (film <= 0)
+      throw NumericsFailure("touching", "the membrane touches the wall between its nodes",
+                            "try a smaller accuracy or a finer mesh.membrane");
+  }
+
   void record(double time, const Vector &position, bool profile) {
     const FlowState state = dynamics_.report(position);
     SeriesRow row = gauge_.row(time, position, state.velocity);
@@ -251,6 +259,7 @@ private:
       record_.profiles.push_back(gauge_.profile(time, position, state.velocity));
     if (control_.progress)
       control_.progress(row, record_.steps);
+    require_film(row.min_film);
     if (gauge_.crosses_itself(position))
       throw NumericsFailure("self-contact", "the membrane crosses itself",
                             "raise membrane.bending_ratio or refine mesh.membrane");

@@ -228,6 +228,21 @@ BOOST_AUTO_TEST_CASE(runaway_is_reported_as_unbounded) {
   BOOST_TEST(std::abs(outcome.last.series.back().volume_change) < 1e-4);
 }
 
+// A spheroid whose widest ring lies between two nodes, beyond the wall.
+BOOST_AUTO_TEST_CASE(contact_between_the_nodes_is_seen) {
+  Case physics;
+  physics.pore.shape = PoreShape::tube;
+  physics.capsule.start_x = 0;
+  physics.capsule.aspect_ratio = 0.6;
+  physics.capsule.radius = 1.001 * std::cbrt(0.6);
+  physics.flow.capillary_number = 0.05;
+  physics.mesh.membrane = 24;
+  physics.until.x_g = 1;
+  const Outcome outcome = march(physics, {}, {});
+  BOOST_TEST((outcome.status == Status::failed));
+  BOOST_TEST(outcome.failure == "touching");
+}
+
 // The centre of an extension is an unstable place: whatever is off it drifts away as exp(t). The capsule stays.
 BOOST_AUTO_TEST_CASE(a_long_extension_keeps_its_centre) {
   Case physics = in_extension(LawName::neo_hookean, 0, 0.1, 1);

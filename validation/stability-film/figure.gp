@@ -26,14 +26,15 @@ failed(name) = strcol("status") eq "failed" ? column(name) : NaN
 stats plugs using (reached(1, "radius")) name "size" nooutput
 stats plugs using (reached(1, "min_film")) name "plug" nooutput
 stats plugs using (failed("min_film")) name "thin" nooutput
+failure = result_word("radius=1.1,viscosity_ratio=100", "failure")
 eval figure("stability-plugs", 12, 8)
 set logscale y; set format y "10^{%T}"
 set xrange [0.8:1.4]; set yrange [1e-4:1]
 set xlabel "{/:Italic R}_{eq} / {/:Italic R}_t"; set ylabel "film at the end / {/:Italic R}_t"
 plot plugs using "radius":(reached(1, "min_film")) with points linetype 1 title "{/:Italic λ} = 1", \
   plugs using "radius":(reached(100, "min_film")) with points linetype 2 title "{/:Italic λ} = 100", \
-  plugs using "radius":(failed("min_film")) with points linetype 3 title "unresolved, {/:Italic λ} = 100"
+  plugs using "radius":(failed("min_film")) with points linetype 3 title failure.", {/:Italic λ} = 100"
 print "**Nearly plugged.** Film of Skalak capsules (C = 1, ε = 0.05, 48 nodes) at x_g = 3 against their size: with λ = 1 sizes up to", \
   sprintf("%.1f come in, with films down to %.3f. A capsule a hundred times as viscous as the liquid outside does not give way in time:", \
     size_max, plug_min), \
-  sprintf("the film at the lip goes down to %.0e, where the run ends as unresolved.", thin_min)
+  sprintf("the film at the lip goes down to %.0e, where the run ends as %s.", thin_min, failure)
