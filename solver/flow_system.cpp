@@ -70,8 +70,10 @@ Rings rings_of(const Curve &curve) {
 }
 
 // The last solutions belong to shapes along a smooth way: the new shape as a combination of theirs, by least
-// squares, continues them.
+// squares, continues them. Far from them, the last one is as good.
 Vector continued(const FlowSystem::Corrector &corrector, const Vector &position) {
+  constexpr double negligible = 1e-6; // a way beside another one
+  constexpr double far = 20;          // times the ways between them
   if (corrector.positions.empty())
     return Vector::Zero(position.size());
   const auto steps = static_cast<Eigen::Index>(corrector.positions.size()) - 1;
@@ -83,10 +85,13 @@ Vector continued(const FlowSystem::Corrector &corrector, const Vector &position)
     ways.col(k) = corrector.positions[earlier] - corrector.positions[0];
     changes.col(k) = corrector.solutions[earlier] - corrector.solutions[0];
   }
-  Eigen::ColPivHouseholderQR<Matrix> shares(position.size(), steps);
-  shares.setThreshold(1e-3); // what is within noise of a way already taken tells nothing
-  shares.compute(ways);
-  return corrector.solutions[0] + changes * shares.solve(position - corrector.positions[0]);
+  Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(position.size(), steps);
+  decomposition.setThreshold(negligible);
+  decomposition.compute(ways);
+  const Vector shares = decomposition.solve(position - corrector.positions[0]);
+  if (!(shares.cwiseAbs().maxCoeff() < far)) // or no number
+    return corrector.solutions[0];
+  return corrector.solutions[0] + changes * shares;
 }
 
 void remember(const Vector &position, const Vector &solution, FlowSystem::Corrector &corrector) {
