@@ -42,23 +42,26 @@ struct Fold {
   double pressure_drop = NAN, curvature = NAN, place = NAN, slack = NAN;
 };
 
-// The largest meridional curvature and where it is, as a part of the meridian from the rear.
+// The largest meridional curvature and where it is, as a part of the undeformed meridian from the rear.
 Fold look_at(const SteadyState &state) {
   const SteadySystem &system = *state.system;
-  const Vector position = state.unknowns.head(2 * system.nodes());
-  const Vector zeta = Vector::LinSpaced(2000, 1e-3, std::numbers::pi - 1e-3);
-  const Sampling dense = sample(system.membrane().basis, zeta, Vector::Zero(zeta.size()));
+  const Eigen::Index n = system.nodes();
+  const Vector position = state.unknowns.head(2 * n);
+  constexpr int points = 2000;
+  const Vector zeta = Vector::LinSpaced(points, 1e-3, std::numbers::pi - 1e-3);
+  const Sampling dense = sample(system.membrane().basis, zeta, Vector::Zero(points));
+  // Of the deformed shape alone: the membrane's state is known at the energy's points only.
+  const Eigen::ArrayXd x1 = dense.even[1] * position.head(n), x2 = dense.even[2] * position.head(n);
+  const Eigen::ArrayXd r1 = dense.odd[1] * position.tail(n), r2 = dense.odd[2] * position.tail(n);
+  const Eigen::ArrayXd curvature = (r1 * x2 - x1 * r2) / (x1.square() + r1.square()).pow(1.5);
+  const Vector &reference = system.membrane().reference;
+  const Eigen::ArrayXd arc = ((dense.even[1] * reference.head(n)).array().square() +
+                              (dense.odd[1] * reference.tail(n)).array().square())
+                                 .sqrt();
   Eigen::Index at = 0;
-  // Of the deformed shape alone: the reference shape is not sampled there.
-  const Vector x1 = dense.even[1] * position.head(system.nodes()),
-               r1 = dense.odd[1] * position.tail(system.nodes());
-  const Vector x2 = dense.even[2] * position.head(system.nodes()),
-               r2 = dense.odd[2] * position.tail(system.nodes());
-  const Eigen::ArrayXd curvature = (r1.array() * x2.array() - x1.array() * r2.array()) /
-                                   (x1.array().square() + r1.array().square()).pow(1.5);
   Fold fold;
   fold.curvature = curvature.maxCoeff(&at);
-  fold.place = zeta[at] / std::numbers::pi;
+  fold.place = arc.head(at).sum() / arc.sum();
   fold.pressure_drop = system.flow(position).pressure_drop;
   fold.slack = std::abs(state.unknowns[state.unknowns.size() - 1]);
   return fold;
