@@ -364,7 +364,8 @@ std::string in_ascii(const std::string &text) {
   return ascii;
 }
 
-// The first character beyond ASCII that begins a line joined to the one before by a backslash.
+// The first character beyond ASCII that begins a line joined to the one before by a backslash; also in a literal
+// string, where a backslash joins nothing.
 std::size_t find_joined(const std::string &text) {
   constexpr const char *white = " \t\v\f\r\n";
   for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
@@ -391,7 +392,7 @@ std::variant<toml::table, Error> parse(std::size_t source, const std::string &te
   if (const std::size_t joined = find_joined(text); joined != std::string::npos)
     return Error{place_of(source, text, joined), {"a joined line must begin with an ASCII character", ""}};
   try {
-    const toml::table structure = toml::parse(std::string_view(in_ascii(text)));
+    const toml::table well_formed = toml::parse(std::string_view(in_ascii(text))); // or it throws
     return toml::parse(std::string_view(text));
   } catch (const toml::parse_error &error) {
     return Error{place_of(source, error.source().begin), {std::string(error.description()), ""}};

@@ -125,11 +125,14 @@ Columns read_columns(const fs::path &file) {
   Columns columns;
   for (const std::string &name : names)
     columns[name] = {};
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> fields = split_csv(lines[i]);
-    for (std::size_t k = 0; k < names.size(); ++k)
-      columns[names[k]].push_back(std::stod(fields.at(k)));
-  }
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    try {
+      const std::vector<std::string> fields = split_csv(lines[i]);
+      for (std::size_t k = 0; k < names.size(); ++k)
+        columns[names[k]].push_back(std::stod(fields.at(k)));
+    } catch (const std::logic_error &) { // of stod or at
+      throw FileError(fmt::format("{}:{}: not {} numbers", file.string(), i + 1, names.size()));
+    }
   return columns;
 }
 

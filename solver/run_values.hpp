@@ -59,7 +59,7 @@ private:
 std::optional<std::string> case_of(const Reference &reference);
 std::string runs_of(const Reference &reference);
 
-// Throws FileError, and std::exception where a field is no number.
+// Throws FileError, with the line that is not one number a name.
 Columns read_columns(const std::filesystem::path &file);
 // Fields between commas; a field may stand in double quotes, doubled inside.
 std::vector<std::string> split_csv(const std::string &line);

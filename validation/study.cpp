@@ -4,6 +4,7 @@
 #include "run_values.hpp"
 #include "workers.hpp"
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -152,6 +153,11 @@ double cpu_seconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+bool check(bool holds, const std::string &claim) {
+  fmt::print("{}: {}: {}\n", program_invocation_short_name, holds ? "HOLDS" : "FAILS", claim);
+  return holds;
 }
 
 } // namespace capsule

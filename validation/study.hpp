@@ -56,6 +56,9 @@ double history_error(const History &history, const History &reference, const std
 // Spent by this process so far.
 double cpu_seconds();
 
+// Prints whether a claim of this study holds, and returns it.
+bool check(bool holds, const std::string &claim);
+
 // Rows under a header, each with its line's end missing, written at once.
 class Table {
 public:

@@ -69,11 +69,6 @@ std::vector<Distance> changes(const std::string &what, const std::vector<double>
   return found;
 }
 
-bool check(const std::string &claim, bool holds) {
-  fmt::print("stability-edges: {}: {}\n", holds ? "HOLDS" : "FAILS", claim);
-  return holds;
-}
-
 // From which distance on all errors are below a bound.
 double enough(const std::vector<Distance> &found, double bound) {
   double distance = NAN;
@@ -96,8 +91,8 @@ bool exits(const Vector &position, Table &table, Table &needs) {
       [](Case &c, double distance) { c.pore.exit_x = in_tube + distance; }, table);
   report("exit", found, needs);
   const double need = enough(found, 1e-4);
-  return check(fmt::format("an exit 4 radii beyond the centre is far enough for 1e-4 (from {:g} on)", need),
-               need <= 4);
+  return check(need <= 4,
+               fmt::format("an exit 4 radii beyond the centre is far enough for 1e-4 (from {:g} on)", need));
 }
 
 bool entrances(const std::vector<std::pair<std::string, Vector>> &shapes, Table &table, Table &needs) {
@@ -109,7 +104,7 @@ bool entrances(const std::vector<std::pair<std::string, Vector>> &shapes, Table 
     report("entrance" + name, found, needs);
     holds = holds && enough(found, 1e-5) <= 30;
   }
-  return check("the entrance section at 30, the default, is far enough for 1e-5", holds);
+  return check(holds, "the entrance section at 30, the default, is far enough for 1e-5");
 }
 
 bool starts(const std::string &directory, unsigned jobs, Table &table, Table &needs) {
@@ -145,9 +140,9 @@ bool starts(const std::string &directory, unsigned jobs, Table &table, Table &ne
   report("start", found, needs);
   const double need = enough(found, 1e-4);
   return check(
+      need <= 4,
       fmt::format("the start at -4, the default, is far enough for 1e-4 from x_g = -1 on (from -{:g} on)",
-                  need),
-      need <= 4);
+                  need));
 }
 
 bool study(const std::string &directory, unsigned jobs) {

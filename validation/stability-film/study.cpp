@@ -69,11 +69,6 @@ Vector exact_velocity(Layer layer, double film) {
   return velocity(layer, uniform_panels(count), film, plain);
 }
 
-bool check(const std::string &claim, bool holds) {
-  fmt::print("stability-film: {}: {}\n", holds ? "HOLDS" : "FAILS", claim);
-  return holds;
-}
-
 bool quadrature(const std::string &directory) {
   constexpr int panel_count = 16; // as long as with 96 nodes
   const double panel = half_length * pi / panel_count;
@@ -101,9 +96,9 @@ bool quadrature(const std::string &directory) {
   fmt::print("largest error of the near rule {:.2g} of its tolerance; of Gauss's rule alone {:.2g}\n", worst,
              worst_plain);
   return check(
+      worst < 10,
       fmt::format("the near rule's error is below ten times its tolerance for every film (worst {:.1f})",
-                  worst),
-      worst < 10);
+                  worst));
 }
 
 Case plug(double radius, double viscosity_ratio, int nodes) {
@@ -151,8 +146,8 @@ bool plugs(const std::string &directory, unsigned jobs) {
   }
   table.write(directory + "/plugs.csv");
   return check(
-      "capsules up to R_eq = 1.3 enter; one that is too viscous for it is said to be unresolved or touching",
-      ended);
+      ended,
+      "capsules up to R_eq = 1.3 enter; one that is too viscous for it is said to be unresolved or touching");
 }
 
 bool study(const std::string &directory, unsigned jobs) {

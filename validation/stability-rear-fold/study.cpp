@@ -149,11 +149,6 @@ double nodes_for(const std::vector<std::pair<int, double>> &errors) {
   return NAN;
 }
 
-bool check(bool holds, const std::string &claim) {
-  fmt::print("stability-rear-fold: {}: {}\n", holds ? "HOLDS" : "FAILS", claim);
-  return holds;
-}
-
 using Folds = std::map<std::pair<int, int>, Fold>; // nodes, step
 
 Folds read_folds(const std::vector<std::string> &texts) {

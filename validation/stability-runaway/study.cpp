@@ -154,11 +154,6 @@ PowerLaw law_of(const std::vector<double> &times, double nearest) {
   return {std::log(near / far) / std::log(4), factor, times[last] - factor / std::sqrt(nearest)};
 }
 
-bool check(bool holds, const std::string &claim) {
-  fmt::print("stability-runaway: {}: {}\n", holds ? "HOLDS" : "FAILS", claim);
-  return holds;
-}
-
 void write_pore(const std::vector<double> &through, const std::vector<std::string> &texts,
                 const std::string &directory) {
   Table pore("distance,status,x_g,max_stretch,v_g");

@@ -1,6 +1,7 @@
 // Spheres in an unbounded uniaxial extension: deformation against capillary number for both laws, its slope from the
 // theory of small deformations, and where steady states end.
 #include "branch.hpp"
+#include "run_values.hpp"
 #include "steady_folds.hpp"
 #include <algorithm>
 #include <cmath>
@@ -116,19 +117,6 @@ std::string fold_row(double bending_ratio) {
                      second.growth_rate, first.growth_rate, second.row.deformation, second.row.max_stretch);
 }
 
-std::vector<std::string> cells_of(const std::string &row) {
-  std::vector<std::string> cells;
-  std::istringstream stream(row);
-  for (std::string cell; std::getline(stream, cell, ',');)
-    cells.push_back(cell);
-  return cells;
-}
-
-bool check(bool holds, const std::string &claim) {
-  fmt::print("steady-extension: {}: {}\n", holds ? "HOLDS" : "FAILS", claim);
-  return holds;
-}
-
 bool study(const std::string &directory, unsigned jobs) {
   std::vector<TextTask> tasks;
   for (const Sphere &sphere : spheres)
@@ -147,7 +135,7 @@ bool study(const std::string &directory, unsigned jobs) {
     std::istringstream rows(*text);
     branches += *text++;
     for (std::string row; std::getline(rows, row);) {
-      const std::vector<std::string> cells = cells_of(row);
+      const std::vector<std::string> cells = split_csv(row);
       const std::string end = cells.size() > 6 ? cells[6] : "";
       if (!end.empty())
         fmt::print("{}: {} at Ca = {}, D = {}, stretch {}\n", sphere.name(), end, cells[1], cells[2],
@@ -164,7 +152,7 @@ bool study(const std::string &directory, unsigned jobs) {
   double apart = 0, growth = 0;
   for (int k = 0; k < 2; ++k) {
     folds.add(*text);
-    const std::vector<std::string> cells = cells_of(*text++);
+    const std::vector<std::string> cells = split_csv(*text++);
     apart = std::max(apart, std::abs(std::stod(cells[1]) - std::stod(cells[2])));
     growth = std::max({growth, std::abs(std::stod(cells[3])), std::abs(std::stod(cells[4]))});
     fmt::print("neo-hookean, delta = {}: no steady state beyond Ca = {}, D = {}, stretch {} there\n",
@@ -176,7 +164,7 @@ bool study(const std::string &directory, unsigned jobs) {
   double slope_error = 0;
   for (const Sphere &sphere : spheres) {
     slopes.add(*text);
-    const std::vector<std::string> cells = cells_of(*text++);
+    const std::vector<std::string> cells = split_csv(*text++);
     slope_error = std::max(slope_error, std::abs(std::stod(cells[2]) / std::stod(cells[3]) - 1));
     fmt::print("{}: D/Ca = {}, theory {} ({} without bending)\n", sphere.name(), cells[2], cells[3],
                cells[4]);

@@ -1,11 +1,11 @@
 // Up to which capillary number does a steady state exist? Folds of neo-Hookean capsules against size, shape and bending
 // stiffness on two meshes; the same search for Skalak's law.
 #include "failure.hpp"
+#include "run_values.hpp"
 #include "steady_folds.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <sstream>
 
 using namespace capsule;
 
@@ -80,14 +80,6 @@ std::string skalak_branch(double dilatation, double radius) {
   }
 }
 
-std::vector<std::string> cells_of(const std::string &row) {
-  std::vector<std::string> cells;
-  std::istringstream stream(row);
-  for (std::string cell; std::getline(stream, cell, ',');)
-    cells.push_back(cell);
-  return cells;
-}
-
 bool study(const std::string &directory, unsigned jobs) {
   std::vector<TextTask> tasks;
   for (const Curve &curve : curves())
@@ -107,7 +99,7 @@ bool study(const std::string &directory, unsigned jobs) {
   double apart = 0, growth = 0;
   for (std::size_t k = 0; k < folds_to_find; ++k) {
     folds.add(rows[k]);
-    const std::vector<std::string> cells = cells_of(rows[k]);
+    const std::vector<std::string> cells = split_csv(rows[k]);
     apart = std::max(apart, std::abs(std::stod(cells[4]) - std::stod(cells[5])));
     growth = std::max({growth, std::abs(std::stod(cells[6])), std::abs(std::stod(cells[7]))});
     fmt::print("NH {:12} R = {:4}: no steady state beyond eps = {}, stretch {} there\n", cells[0], cells[3],
@@ -119,7 +111,7 @@ bool study(const std::string &directory, unsigned jobs) {
   double least = highest_flow;
   for (std::size_t k = folds_to_find; k < rows.size(); ++k) {
     ends.add(rows[k]);
-    const std::vector<std::string> cells = cells_of(rows[k]);
+    const std::vector<std::string> cells = split_csv(rows[k]);
     if (std::stod(cells[0]) > 0) { // C
       none = none && cells[3] != "fold";
       stable = stable && std::stod(cells[6]) < 0;
