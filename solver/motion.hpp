@@ -33,7 +33,8 @@ struct Outcome {
   std::string failure; // NumericsFailure::kind, empty when nothing failed
   std::string message; // why it failed, where (t, x_g), what to try; empty otherwise
   Checkpoint last;     // all that was computed
-  // quantity ("v_g", "pressure_drop", ...) -> estimated absolute error
+  // quantity -> bound of the absolute error by estimate: "v_g" of the last row, "v_g@x_g" or "v_g@time" of all rows at
+  // the same x_g or time
   std::map<std::string, double> error_estimate;
   // Other quantities of summary.json.
   std::map<std::string, double> further = {};
