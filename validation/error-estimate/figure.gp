@@ -25,7 +25,7 @@ plot x with lines linetype 1 linecolor rgb "#808080" title "error", \
 way(condition) = count("$k[\"quantity\"] ~ /@x_g/ && (".condition.")")
 single(condition) = count("$k[\"quantity\"] !~ /@x_g/ && (".condition.")")
 small = "$k[\"difference\"] - $k[\"floor\"] > $k[\"estimate\"]"
-large = "$k[\"estimate\"] > 30 * ($k[\"difference\"] + $k[\"floor\"])"
+large = "$k[\"holds\"] == 0 && !(".small.")"
 print "**Error estimates.** Estimated against true errors of", \
   sprintf("%d entrances: spheres and ellipsoids, both laws, viscosity ratios from 0.2 to 10, accuracies from 1e-2 to 1e-6;", capsules), \
   sprintf("the largest along the way in colours, those of values at the end and at the peak in grey. Of %d of the first", way("1")), \
