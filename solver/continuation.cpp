@@ -124,10 +124,10 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     before = length;
     now.unknowns += change.head(m);
     now.parameter += change[m];
-    const double enough = tolerance * std::sqrt(weight_);
-    // A large slack tells of a coarse mesh only where nothing else is left of it.
+    // A large slack tells of a coarse mesh only where nothing else is left of a correction.
     const bool slack_is_small = std::abs(now.unknowns[m - 1]) <= largest_slack;
-    if (length < (slack_is_small ? enough : enough / 100)) {
+    const double enough = slack_is_small ? tolerance : std::max(tolerance / 100, position_tolerance);
+    if (length < enough * std::sqrt(weight_)) {
       right.setZero();
       right[m] = 1;
       Vector direction = factors.solve(right);
@@ -208,21 +208,32 @@ double Branch::along_tangent_before(const BranchPoint &at) const {
   return weighted(way, tangent_before_);
 }
 
+// So that a way from the point before, begun along its tangent, ends at a given point.
+Vector Branch::bend_towards(const BranchPoint &end) const {
+  Vector way(tangent_before_.size());
+  way << end.unknowns - before_.unknowns, end.parameter - before_.parameter;
+  const double length = along_tangent_before(end);
+  return 2 / (length * length) * (way - length * tangent_before_);
+}
+
 // Where the parameter has no slope along the arc: by the tangents, or, if they do not see it because the mesh
 // resolves some end of the shape poorly, by differences of the parameter itself.
 BranchPoint Branch::fold() const {
   const double last = along_tangent_before(point_);
   const double first = points_ > 2 ? along_tangent_before(oldest_) : -last;
   const double h = 0.03 * std::min(-first, last);
-  const Vector straight = Vector::Zero(tangent_before_.size());
+  const Vector bend_before = points_ > 2 ? bend_towards(oldest_) : Vector::Zero(tangent_before_.size());
+  const Vector bend_after = bend_towards(point_);
   const auto at = [&](double step) {
-    return correct(before_, tangent_before_, step, position_tolerance, straight);
+    return correct(before_, tangent_before_, step, position_tolerance, step < 0 ? bend_before : bend_after);
   };
   const auto by_tangents = [&](double step) { return at(step).tangent[tangent_.size() - 1]; };
   const auto by_differences = [&](double step) {
     return at(step + h).point.parameter - at(step - h).point.parameter;
   };
   const auto solve = [&](const auto &slope, double slope_first, double slope_last) {
+    if (!(slope_first * slope_last < 0)) // noise of a poorly resolved branch
+      no_convergence();
     std::uintmax_t evaluations = 30;
     const auto found =
         boost::math::tools::toms748_solve(slope, first + h, last - h, slope_first, slope_last,

@@ -48,7 +48,8 @@ public:
   bool wants_a_finer_mesh() const;
   // The steady state between the last two points at a parameter between theirs.
   BranchPoint at_parameter(double parameter) const;
-  // Whether the parameter has turned back in the last step or shortly before it, and the fold there.
+  // Whether the parameter has turned back in the last step or shortly before it, and the fold there. Throws
+  // NumericsFailure where a mesh is so poor that a turn of the points is none of the branch.
   bool turned() const;
   // Whether the tangent sees it, too; if not, the mesh resolves some part of the shape too poorly to tell.
   bool tangent_has_turned() const;
@@ -66,6 +67,7 @@ private:
   Vector parameter_slope(const BranchPoint &at) const;
   double weighted(const Vector &a, const Vector &b) const;
   double along_tangent_before(const BranchPoint &at) const;
+  Vector bend_towards(const BranchPoint &end) const;
   void balance();
 
   SteadySystem *system_;

@@ -63,9 +63,12 @@ Resolution resolution_of(const Case &physics, int nodes, double clustering) {
   return resolution;
 }
 
-// The first mesh for a case on the way to another.
+// The first mesh for a case on the way to another. A neo-Hookean front, which may stretch without bound, gives no
+// nodes to the rear.
 std::shared_ptr<SteadySystem> first_system(const Case &physics, const Case &target) {
-  return system_on_mesh(physics, first_nodes(target), choose_resolution(target).clustering);
+  const bool strong_front = target.membrane.law == LawName::skalak;
+  return system_on_mesh(physics, first_nodes(target),
+                        strong_front ? choose_resolution(target).clustering : 0);
 }
 
 } // namespace
@@ -356,7 +359,8 @@ SteadyState find_steady(const Case &physics, const std::optional<Profile> &from,
   }
   std::optional<NumericsFailure> first;
   const double flow = physics.flow.capillary_number;
-  for (const double strength : {std::clamp(flow, 0.03, 0.06), 0.02, 0.12}) {
+  const double weakest = physics.flow.type == FlowType::extension ? 0 : 0.03; // only a tube squeezes
+  for (const double strength : {std::clamp(flow, weakest, 0.06), 0.02, 0.12}) {
     bool stronger = false; // only the flow is left to grow
     try {
       Way way = by_way_of(strength, physics, control);

@@ -50,9 +50,14 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
       break;
     }
     if (branch.turned()) {
+      try {
+        now = branch.fold();
+      } catch (const NumericsFailure &) {
+        search.end = "mesh";
+        break;
+      }
       search.end = "fold";
       search.fold = Fold{{}, path.value(good.parameter), {start.system, good.unknowns}};
-      now = branch.fold();
     } else if (now.parameter >= 1) {
       search.end = "end of the path";
       now = branch.at_parameter(1);
