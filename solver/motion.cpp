@@ -435,7 +435,7 @@ Lead lead(const Case &physics, const Checkpoint &from, const Control &control) {
   finer.mesh.membrane = 3 * chosen.membrane_nodes / 2;
   if (physics.time.tolerance == 0)
     finer.time.tolerance = chosen.time_tolerance / 30;
-  const bool goes_on_finer = from.position.size() == 2 * finer.mesh.membrane;
+  const bool goes_on_finer = from.position.size() == Eigen::Index{2} * finer.mesh.membrane;
   if (!goes_on_finer) {
     Outcome outcome =
         March(physics, from, control, Part::leading, roughness_on_chosen_nodes(physics.accuracy)).run();

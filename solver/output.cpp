@@ -223,7 +223,7 @@ std::string surface_vtp(const Profile &profile) {
   for (Eigen::Index i = 0; i + 1 < points; ++i) {
     for (int k = 0; k <= turns; ++k)
       connectivity += fmt::format("{} {}\n", point(i, k), point(i + 1, k));
-    offsets += fmt::format("{}\n", 2 * (turns + 1) * (i + 1));
+    offsets += fmt::format("{}\n", (i + 1) * 2 * (turns + 1));
   }
   std::string fields;
   for (const ProfileColumn &column : profile_columns) {

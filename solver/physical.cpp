@@ -1,6 +1,8 @@
 #include "physical.hpp"
 #include "case.hpp"
 #include "text.hpp"
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -162,12 +164,10 @@ std::string quantity_text(const Quantity &quantity, const Dimension &of) {
 
 bool has_physical(const Case &physics) {
   const auto &p = physics.physical;
-  for (const Quantity &quantity :
-       {p.tube_radius, p.viscosity, p.flow_rate, p.pressure, p.pore_length, p.shear_modulus, p.young_modulus,
-        p.bending_modulus, p.capsule_radius, p.internal_viscosity})
-    if (quantity.si > 0)
-      return true;
-  return false;
+  return std::ranges::any_of(std::array{p.tube_radius, p.viscosity, p.flow_rate, p.pressure, p.pore_length,
+                                        p.shear_modulus, p.young_modulus, p.bending_modulus, p.capsule_radius,
+                                        p.internal_viscosity},
+                             [](const Quantity &quantity) { return quantity.si > 0; });
 }
 
 std::optional<std::string> physical_complaint(const Case &physics) {

@@ -53,11 +53,12 @@ awk -v seed="$seed" -v duration="$duration" 'BEGIN {
 mkdir killed
 kills=0
 finished=0
+share=1
 while read -r moment; do
   while :; do # until it is killed while it runs
     (cd killed && exec "$capsule" run ../case.toml) >log 2>&1 &
     process=$!
-    sleep "$moment"
+    sleep "$(echo "$share $moment" | awk '{ print $1 * $2 }')"
     kill -9 "$process" 2>/dev/null || true
     code=0
     { wait "$process"; } 2>/dev/null || code=$?
@@ -66,7 +67,7 @@ while read -r moment; do
     [ "$code" -eq 0 ] || fail "ended with $code: $(cat log)"
     finished=$((finished + 1))
     rm -rf killed/results
-    moment=$(echo "$moment" | awk '{ print 0.97 * $1 }') # it came too late
+    share=$(echo "$share" | awk '{ print 0.9 * $1 }') # it came too late: runs are faster than the first one was
   done
   kills=$((kills + 1))
 done <moments
