@@ -197,8 +197,11 @@ bool grows_more(const std::complex<double> &a, const std::complex<double> &b) {
 } // namespace
 
 Eigen::VectorXcd SteadySystem::all_growth_rates(const Vector &unknowns, double viscosity_ratio) const {
+  return all_growth_rates(linearise(unknowns), viscosity_ratio);
+}
+
+Eigen::VectorXcd SteadySystem::all_growth_rates(const Linearisation &linear, double viscosity_ratio) const {
   const Eigen::Index n2 = 2 * nodes();
-  const Linearisation linear = linearise(unknowns);
   const Matrix constraints = linear.jacobian.bottomLeftCorner(2, n2);
   const Matrix border = linear.jacobian.topRightCorner(n2, 2);
   Matrix motion = small_motion(linear, viscosity_ratio);
@@ -219,10 +222,11 @@ Eigen::VectorXcd SteadySystem::growth_rates(const Vector &unknowns, double visco
   constexpr Eigen::Index most_vectors = 80;
   constexpr double converged = 1e-8, visible = 0.1; // relative residuals of an eigenvalue
   const Eigen::Index n2 = 2 * nodes();
-  Linearisation linear = linearise(unknowns);
+  const Linearisation linear = linearise(unknowns);
   const Matrix on_velocity = velocity_operator(linear, viscosity_ratio);
-  linear.jacobian.topRightCorner(n2, 2) = on_velocity * Matrix(linear.jacobian.topRightCorner(n2, 2));
-  const Eigen::PartialPivLU<Matrix> factors(linear.jacobian);
+  Matrix bordered = linear.jacobian;
+  bordered.topRightCorner(n2, 2) = on_velocity * linear.jacobian.topRightCorner(n2, 2);
+  const Eigen::PartialPivLU<Matrix> factors(bordered);
   const auto inverse = [&](const Vector &rate) -> Vector {
     Vector right = Vector::Zero(n2 + 2);
     right.head(n2) = on_velocity * rate;
@@ -257,7 +261,7 @@ Eigen::VectorXcd SteadySystem::growth_rates(const Vector &unknowns, double visco
     const std::complex<double> value = eigen.eigenvalues()[k];
     const double residual = hessenberg(size, size - 1) * std::abs(eigen.eigenvectors()(size - 1, k));
     if (value.real() > 0 && residual < visible * std::abs(value))
-      return all_growth_rates(unknowns, viscosity_ratio);
+      return all_growth_rates(linear, viscosity_ratio);
     if (residual < converged * std::abs(value))
       rates.push_back(1.0 / value);
   }

@@ -57,6 +57,7 @@ public:
 
 private:
   Matrix small_motion(const Linearisation &linear, double viscosity_ratio) const;
+  Eigen::VectorXcd all_growth_rates(const Linearisation &linear, double viscosity_ratio) const;
   Matrix velocity_operator(const Linearisation &linear, double viscosity_ratio) const;
   void build_flow();
   Vector equations(const Vector &unknowns, const Vector &velocity) const;

@@ -3,6 +3,7 @@
 #   sh validation/resume.sh path/to/capsule
 set -eu
 capsule=$(realpath "$1")
+. "$(dirname "$0")/lib/numbers.sh"
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 cd "$place"
@@ -58,14 +59,6 @@ kill -9 "$process"
 wait "$process" && fail 'survived being killed'
 "$capsule" run case.toml --set "$sweep" --jobs 2 --out sweep
 
-numbers() { # all files of a run but for what tells of the way there
-  for file in "$1"/*; do
-    case $file in
-    */run.json | */runs.txt) ;;
-    *) echo "${file##*/}" && grep -v '_seconds"' "$file" ;;
-    esac
-  done
-}
 numbers whole >expected
 for directory in killed interrupted sweep/dilatation=0; do
   numbers "$directory" >got

@@ -4,6 +4,7 @@
 #   sh validation/two_at_once.sh path/to/capsule
 set -eu
 capsule=$(realpath "$1")
+. "$(dirname "$0")/lib/numbers.sh"
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 cd "$place"
@@ -31,14 +32,6 @@ at_once() {
   eval "$2" >second.log 2>&1 || code_2=$?
   code_1=0
   wait $first || code_1=$?
-}
-numbers() { # all files of a run but for what tells of the way there
-  for file in "$1"/*; do
-    case $file in
-    */run.json | */runs.txt) ;;
-    *) echo "${file##*/}" && grep -v '_seconds"' "$file" ;;
-    esac
-  done
 }
 for lambda in 1 2; do
   "$capsule" run case --set flow.viscosity_ratio=$lambda --out alone-$lambda >alone.log
