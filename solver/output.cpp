@@ -21,6 +21,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sundials/sundials_config.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace capsule {
@@ -438,8 +440,12 @@ void remove_file(const fs::path &file) {
 
 constexpr std::string_view temporary_prefix = ".writing-";
 
-fs::path temporary_beside(const fs::path &file) {
-  return file.parent_path() / fmt::format("{}{}.{}", temporary_prefix, file.filename().string(), getpid());
+// Beside the file's place: one that all processes know, and one of each process.
+fs::path common_temporary(const fs::path &file) {
+  return file.parent_path() / fmt::format("{}{}", temporary_prefix, file.filename().string());
+}
+fs::path own_temporary(const fs::path &file) {
+  return common_temporary(file) += fmt::format(".{}", getpid());
 }
 
 // What a killed process leaves behind of a run's files; of others, another process may be writing.
@@ -447,14 +453,48 @@ bool is_left_over(const fs::path &file) {
   const std::string name = file.filename().string();
   if (!name.starts_with(temporary_prefix))
     return false;
-  const fs::path meant = fs::path(name.substr(temporary_prefix.size())).stem();
-  return is_result(meant) || meant == "checkpoint.json";
+  const fs::path common = name.substr(temporary_prefix.size());
+  return std::ranges::any_of(std::array{common, common.stem()}, [](const fs::path &meant) {
+    return is_result(meant) || meant == "checkpoint.json";
+  });
+}
+
+bool is_open_at(int descriptor, const fs::path &path) {
+  struct stat open {};
+  struct stat there {};
+  return fstat(descriptor, &open) == 0 && stat(path.c_str(), &there) == 0 && open.st_dev == there.st_dev &&
+         open.st_ino == there.st_ino;
+}
+
+// What a file is written into before it takes its place. The descriptor is negative, and errno says why, where there can
+// be none.
+struct Temporary {
+  fs::path path;
+  int descriptor = -1;
+};
+
+// The common one, so that what a killed process has left in it is overwritten; one's own where another process is
+// writing that one, where it is another user's, or where the file system has no locks.
+Temporary open_temporary(const fs::path &file) {
+  const fs::path common = common_temporary(file);
+  const int descriptor = open(common.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor >= 0) {
+    const bool locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    if (!locked && errno != EWOULDBLOCK)
+      unlink(common.c_str());
+    // Its writer may have been faster: then it is the file by now.
+    if (locked && is_open_at(descriptor, common) && ftruncate(descriptor, 0) == 0)
+      return {common, descriptor};
+    close(descriptor);
+  }
+  const fs::path own = own_temporary(file);
+  return {own, open(own.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
 }
 
 // A hard link, or a copy where there can be none.
 void share_file(const fs::path &from, const fs::path &to) {
   std::error_code ec;
-  const fs::path temporary = temporary_beside(to);
+  const fs::path temporary = own_temporary(to);
   fs::create_hard_link(from, temporary, ec);
   if (ec && !fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, ec))
     fail("cannot write", temporary, ec.value());
@@ -484,8 +524,7 @@ void make_directories(const fs::path &directory) {
 }
 
 void write_atomically(const fs::path &file, std::string_view content) {
-  const fs::path temporary = temporary_beside(file);
-  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const auto [temporary, descriptor] = open_temporary(file);
   int error = descriptor < 0 ? errno : 0;
   for (std::size_t done = 0; error == 0 && done < content.size();) {
     const ssize_t written = write(descriptor, content.data() + done, content.size() - done);
@@ -496,14 +535,14 @@ void write_atomically(const fs::path &file, std::string_view content) {
   }
   if (error == 0 && fsync(descriptor) != 0)
     error = errno;
-  if (descriptor >= 0 && close(descriptor) != 0 && error == 0)
-    error = errno;
   if (error == 0 && rename(temporary.c_str(), file.c_str()) != 0)
     error = errno;
-  if (error != 0) {
+  if (error != 0)
     unlink(temporary.c_str());
+  if (descriptor >= 0) // only now: with it goes the lock
+    close(descriptor);
+  if (error != 0)
     fail("cannot write", file, error);
-  }
 }
 
 void write_checkpoint(const fs::path &directory, const std::string &identity, const SavedRun &saved) {

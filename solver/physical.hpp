@@ -28,7 +28,7 @@ struct Quantity {
   double si = 0; // 0: not given
 };
 
-// "2.5 nl/s": a number, a space, and units joined by "." and at most one "/", each with a prefix from p to G and an
+// "2.5 nl/s": a number, a space, and units joined by "." and at most one "/", each with a prefix from a to G and an
 // exponent ("m3", "s-1"). The quantity, or why it is none of this dimension.
 std::variant<Quantity, std::string> read_quantity(const std::string &text, const Dimension &wanted);
 

@@ -3,14 +3,19 @@
 #include "failure.hpp"
 #include "output.hpp"
 #include "temporary_directory.hpp"
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <csignal>
+#include <fcntl.h>
 #include <functional>
 #include <random>
+#include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace capsule;
 namespace fs = std::filesystem;
@@ -162,6 +167,57 @@ BOOST_AUTO_TEST_CASE(files_are_whole_or_not_there) {
              std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(what_a_killed_writer_leaves_is_overwritten) {
+  const TemporaryDirectory directory;
+  const fs::path file = directory.path / "a.txt", left = directory.path / ".writing-a.txt";
+  std::ofstream(left) << "longer than what comes";
+  write_atomically(file, "whole");
+  BOOST_TEST(content_of(file) == "whole");
+  BOOST_TEST(files_in(directory.path) == 1u);
+
+  // A writer that lives keeps its own.
+  std::ofstream(left) << "of another";
+  const int other = open(left.c_str(), O_RDONLY | O_CLOEXEC);
+  BOOST_REQUIRE(flock(other, LOCK_EX) == 0);
+  write_atomically(file, "once more");
+  BOOST_TEST(content_of(file) == "once more");
+  BOOST_TEST(content_of(left) == "of another");
+  BOOST_TEST(files_in(directory.path) == 2u);
+  close(other);
+}
+
+// While many processes write one file, whoever reads finds one text or the other, whole.
+BOOST_AUTO_TEST_CASE(writers_at_once) {
+  const TemporaryDirectory directory;
+  const fs::path file = directory.path / "a.txt";
+  const std::array texts{std::string(3000, 'a'), std::string(5, 'b'), std::string(70000, 'c')};
+  write_atomically(file, texts[0]);
+  std::vector<pid_t> writers;
+  for (const std::string &text : texts) {
+    const pid_t writer = fork();
+    if (writer == 0) {
+      try {
+        for (int i = 0; i < 50; ++i)
+          write_atomically(file, text);
+        _exit(0);
+      } catch (const FileError &) {
+        _exit(1);
+      }
+    }
+    writers.push_back(writer);
+  }
+  for (int i = 0; i < 50; ++i) {
+    const std::string seen = content_of(file);
+    BOOST_TEST((std::ranges::find(texts, seen) != texts.end()));
+  }
+  for (const pid_t writer : writers) {
+    int status = 0;
+    BOOST_TEST(waitpid(writer, &status, 0) == writer);
+    BOOST_TEST(status == 0);
+  }
+  BOOST_TEST(files_in(directory.path) == 1u);
+}
+
 BOOST_AUTO_TEST_CASE(a_file_size_limit_leaves_nothing_half_written) {
   const TemporaryDirectory directory;
   const fs::path file = directory.path / "a.txt";
@@ -274,7 +330,8 @@ BOOST_AUTO_TEST_CASE(results_are_shared_and_replaced) {
   BOOST_TEST(!fs::exists(two / "membrane_0001.vtp"));
   BOOST_TEST(fs::exists(keep));
   BOOST_TEST(content_of(two / "series.csv") == content_of(other / "series.csv"));
-  std::ofstream(two / ".writing-summary.json.123") << "{";
+  for (const char *left : {".writing-summary.json.123", ".writing-summary.json", ".writing-checkpoint.json"})
+    std::ofstream(two / left) << "{";
   remove_results(two);
   BOOST_TEST(files_in(two) == 1u);
 }
