@@ -9,6 +9,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace capsule {
 namespace {
@@ -86,11 +87,14 @@ Dynamics standard_dynamics(const Case &physics) {
     return system->flow(system->interact(place_in_flow(physics, position)),
                         membrane_load(*membrane, position), *memory);
   };
-  dynamics.report = [physics, system, membrane, memory](const Vector &position) {
+  dynamics.report = [physics, system, membrane, memory](const Vector &position, bool regular) {
     const FlowSystem::Interaction shape = system->interact(place_in_flow(physics, position));
     const Vector load = membrane_load(*membrane, position);
-    FlowState state = system->flow(shape, load, *memory);
-    state.pressure_drop_reciprocal = system->reciprocal_pressure_drop(shape, load, state.velocity, *memory);
+    FlowSystem::Memory copy = *memory;
+    FlowState state = system->flow(shape, load, copy);
+    state.pressure_drop_reciprocal = system->reciprocal_pressure_drop(shape, load, state.velocity, copy);
+    if (regular)
+      memory->traction = std::move(copy.traction);
     return state;
   };
   dynamics.jacobian = [system, membrane, memory](const Vector &position) -> Matrix {
@@ -113,7 +117,9 @@ Dynamics paper_dynamics(const Case &physics) {
     return system->flow(position);
   };
   dynamics.forget = [] {};
-  dynamics.report = dynamics.flow; // the second route is the standard preset's
+  dynamics.report = [flow = dynamics.flow](const Vector &position, bool /*regular*/) {
+    return flow(position); // the second route is the standard preset's
+  };
   return dynamics;
 }
 

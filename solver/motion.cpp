@@ -31,6 +31,7 @@ double roughness_on_chosen_nodes(double accuracy) {
 struct Station {
   double value;
   bool profile;
+  bool regular; // whatever profiles are asked for
   bool end;
 };
 
@@ -39,21 +40,23 @@ std::vector<Station> stations(double from, double spacing, std::optional<double>
   std::vector<Station> list;
   for (const double value : profiles)
     if (value > from && (!end || value <= *end))
-      list.push_back({value, true, false});
+      list.push_back({value, true, false, false});
   if (end) {
     const auto first = static_cast<long>(std::floor(from / spacing + 1e-9)) + 1;
     for (long k = first; static_cast<double>(k) * spacing < *end; ++k)
-      list.push_back({static_cast<double>(k) * spacing, false, false});
-    list.push_back({*end, true, true});
+      list.push_back({static_cast<double>(k) * spacing, false, true, false});
+    list.push_back({*end, true, true, true});
   }
   std::sort(list.begin(), list.end(), [](const Station &a, const Station &b) { return a.value < b.value; });
+  const double same = end ? 1e-6 * spacing : 0; // without an end there is no grid
   std::vector<Station> merged;
   for (const Station &station : list) {
-    if (merged.empty() || station.value - merged.back().value > 1e-6 * spacing)
+    if (merged.empty() || station.value - merged.back().value > same)
       merged.push_back(station);
     else // what was asked for tells the value, not the grid
       merged.back() = {station.profile ? station.value : merged.back().value,
-                       merged.back().profile || station.profile, merged.back().end || station.end};
+                       merged.back().profile || station.profile, merged.back().regular || station.regular,
+                       merged.back().end || station.end};
   }
   return merged;
 }
@@ -82,7 +85,7 @@ public:
     try {
       if (!started()) {
         record_.position = dynamics_.start;
-        record(0, dynamics_.start, true);
+        record(0, dynamics_.start, {.value = 0, .profile = true, .regular = true, .end = false});
       }
       outcome.status = physics_.time.scheme == Scheme::bdf ? run_bdf() : run_explicit();
     } catch (const NumericsFailure &failure) {
@@ -186,8 +189,7 @@ private:
   // Records the rows that fall into the last step, in order of time; true at the end.
   template <class Integrator>
   bool record_due(const Integrator &integrator) {
-    const double now = integrator.time();
-    double since = integrator.previous_time();
+    const double now = integrator.time(), before = integrator.previous_time();
     for (;;) {
       double due = std::numeric_limits<double>::infinity();
       const Station *station = nullptr;
@@ -202,7 +204,7 @@ private:
           return gauge_.centre(integrator.state_at(time)) - by_x_g_[next_x_g_].value;
         };
         if (ahead(now) >= 0) {
-          const double crossing = crossing_time(ahead, since, now);
+          const double crossing = crossing_time(ahead, before, now);
           if (crossing < due) {
             station = &by_x_g_[next_x_g_];
             due = crossing;
@@ -212,9 +214,8 @@ private:
       }
       if (station == nullptr)
         return false;
-      record(due, integrator.state_at(due), station->profile);
+      record(due, integrator.state_at(due), *station);
       ++(in_time ? next_time_ : next_x_g_);
-      since = due;
       if (station->end) {
         record_.time = due;
         record_.position = integrator.state_at(due);
@@ -249,13 +250,15 @@ private:
                             "try a smaller accuracy or a finer mesh.membrane");
   }
 
-  void record(double time, const Vector &position, bool profile) {
-    const FlowState state = dynamics_.report(position);
+  void record(double time, const Vector &position, const Station &station) {
+    // The companion's second route to the pressure drop is not looked at.
+    const FlowState state =
+        part_ == Part::companion ? dynamics_.flow(position) : dynamics_.report(position, station.regular);
     SeriesRow row = gauge_.row(time, position, state.velocity);
     row.pressure_drop = state.pressure_drop;
     row.pressure_drop_reciprocal = state.pressure_drop_reciprocal;
     record_.series.push_back(row);
-    if (profile)
+    if (station.profile)
       record_.profiles.push_back(gauge_.profile(time, position, state.velocity));
     if (control_.progress)
       control_.progress(row, record_.steps);

@@ -3,6 +3,8 @@
 #include "motion.hpp"
 #include "resolution.hpp"
 #include "steady_state.hpp"
+#include <array>
+#include <bit>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -96,6 +98,28 @@ BOOST_AUTO_TEST_CASE(a_resumed_march_is_the_same) {
     }
     BOOST_TEST((resumed.last.position - whole.last.position).cwiseAbs().maxCoeff() == 0);
   }
+}
+
+// Rows that are recorded for their profiles leave the march and its other rows as they are, bit by bit.
+BOOST_AUTO_TEST_CASE(further_rows_change_nothing) {
+  Case physics = short_entrance();
+  physics.flow.viscosity_ratio = 5;
+  physics.time.tolerance = 1e-7;
+  Case with_profiles = physics;
+  with_profiles.output.profiles_at_x_g = {-3.99, -3.33, -3.31, -2, -1.01};
+  with_profiles.output.profiles_at_time = {0.5, 1, 1.0001};
+  const Checkpoint plain = march(physics, {}, {}).last;
+  const Checkpoint further = march(with_profiles, {}, {}).last;
+  BOOST_TEST(further.profiles.size() == plain.profiles.size() + 8);
+  BOOST_TEST(further.series.size() == plain.series.size() + 7); // -2 has a row of its own
+  BOOST_TEST(further.steps == plain.steps);
+  BOOST_TEST((further.position - plain.position).cwiseAbs().maxCoeff() == 0);
+  using Numbers = std::array<double, sizeof(SeriesRow) / sizeof(double)>;
+  std::size_t k = 0;
+  for (const SeriesRow &row : further.series)
+    if (k < plain.series.size() && std::bit_cast<Numbers>(row) == std::bit_cast<Numbers>(plain.series[k]))
+      ++k;
+  BOOST_TEST(k == plain.series.size());
 }
 
 // The estimate bounds the distance to a much finer march, for the error-controlled scheme and for Euler's.

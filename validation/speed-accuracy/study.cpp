@@ -301,7 +301,7 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
     alone.push_back(seconds_of([&] { membrane_alone.interact(shape); }));
     all.push_back(seconds_of([&] { system.interact(shape); }));
     row.push_back(seconds_of([&] {
-      const FlowState state = dynamics.report(shape);
+      const FlowState state = dynamics.report(shape, true);
       gauge.row(0, shape, state.velocity);
       gauge.crosses_itself(shape);
     }));
