@@ -39,7 +39,7 @@ enum ExitCode {
 };
 
 // The only thing a signal's handler may touch.
-std::atomic<bool> signal_came = false; // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+std::atomic<bool> signal_came = false;
 
 // Once: a second signal ends the program at once.
 void listen_to_signals() {

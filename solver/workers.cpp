@@ -52,9 +52,8 @@ void keep_text(const char *text, char (&place)[1000]) {
 
 std::exception_ptr failure_of(int status, const char *error) {
   if (WIFSIGNALED(status))
-    return std::make_exception_ptr(
-        std::runtime_error(fmt::format("a run's process was ended by signal {} ({})", WTERMSIG(status),
-                                       strsignal(WTERMSIG(status))))); // NOLINT(concurrency-mt-unsafe)
+    return std::make_exception_ptr(std::runtime_error(fmt::format(
+        "a run's process was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))));
   if (WEXITSTATUS(status) == input_error)
     return std::make_exception_ptr(InputError(error));
   if (WEXITSTATUS(status) == file_error)
