@@ -247,4 +247,13 @@ BranchPoint Branch::fold() const {
              : solve(by_differences, by_differences(first + h), by_differences(last - h));
 }
 
+BranchPoint Branch::before_fold(const BranchPoint &fold, double parameter) const {
+  const BranchPoint &begin = along_tangent_before(fold) > 0 ? before_ : oldest_;
+  // Near the fold the parameter lacks the square of the way.
+  const double way = std::sqrt((fold.parameter - parameter) / (fold.parameter - begin.parameter));
+  system_->take(path_(parameter));
+  return {solve_steady(*system_, fold.unknowns + way * (begin.unknowns - fold.unknowns), position_tolerance),
+          parameter};
+}
+
 } // namespace capsule

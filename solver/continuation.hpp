@@ -54,6 +54,8 @@ public:
   // Whether the tangent sees it, too; if not, the mesh resolves some part of the shape too poorly to tell.
   bool tangent_has_turned() const;
   BranchPoint fold() const;
+  // The steady state on the near side of that fold, at a parameter between the fold's and that of the last point before.
+  BranchPoint before_fold(const BranchPoint &fold, double parameter) const;
 
 private:
   struct Corrected {

@@ -227,8 +227,14 @@ private:
                               failure.advice);
       }
       const BranchPoint &now = branch.point();
-      if (branch.turned() && turned_at.empty())
-        turned_at = leg.text(branch.fold().parameter);
+      if (branch.turned() && turned_at.empty()) {
+        const BranchPoint fold = branch.fold();
+        if (fold.parameter >= 1) { // the step has gone past the end of the leg, and back
+          state_.unknowns = branch.before_fold(fold, 1).unknowns;
+          return 1;
+        }
+        turned_at = leg.text(fold.parameter);
+      }
       if (now.parameter < 0 || (!turned_at.empty() && largest_stretch_of(now) > largest_stretch))
         break;
       if (branch.wants_a_finer_mesh() && can_refine())

@@ -19,6 +19,21 @@ Case neo_hookean_case(int nodes) {
   return physics;
 }
 
+// However near to a fold, there is a stable state on its near side: the way to the fold grows like the root of what the
+// parameter lacks.
+void check_near_side(Case physics, const BranchRow &fold) {
+  std::vector<double> ways;
+  for (const double share : {4e-5, 4e-4, 2e-3}) {
+    physics.flow.capillary_number = (1 - share) * fold.parameter;
+    const Outcome near = steady(physics, {}, {});
+    BOOST_REQUIRE((near.status == Status::steady));
+    BOOST_TEST(near.further.at("growth_rate") < 0);
+    ways.push_back((fold.row.max_stretch - near.last.series.at(0).max_stretch) / std::sqrt(share));
+    BOOST_TEST(std::abs(ways.back() / ways.front() - 1) < 3 * std::sqrt(share));
+  }
+  BOOST_TEST(ways.front() > 0);
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(branch)
@@ -39,6 +54,8 @@ BOOST_AUTO_TEST_CASE(fold_of_a_neo_hookean_capsule) {
     BOOST_TEST(std::abs(fold.growth_rate) < 1e-6 * std::abs(before));
     for (const BranchRow &point : outcome.branch)
       BOOST_TEST(point.parameter < fold.parameter);
+    if (k == 0)
+      check_near_side(neo_hookean_case(64), fold);
   }
   BOOST_TEST(std::abs(found[0] - found[1]) < 1e-6 * found[0]);
 }

@@ -1,6 +1,5 @@
 // The runs of a case with a stand-in for the march: reuse, interruption at any step, sharing, failures.
 #include "failure.hpp"
-#include "progress.hpp"
 #include "run.hpp"
 #include "temporary_directory.hpp"
 #include <atomic>
@@ -356,13 +355,4 @@ BOOST_AUTO_TEST_CASE(seconds_add_up_over_interruptions) {
   BOOST_TEST(results.at(0).summary->quantities.at("wall_seconds") >= 0.12);
   BOOST_TEST(results.at(0).summary->quantities.at("cpu_seconds") > 0);
   BOOST_TEST(results.at(0).summary->quantities.at("cpu_seconds") < 0.12);
-}
-
-BOOST_AUTO_TEST_CASE(fraction_of_the_way) {
-  Case physics = case_with({1}).runs[0].physics;
-  BOOST_TEST(fraction_done(physics, 10, 4) == 0.5);
-  physics.until.time = 12.5;
-  BOOST_TEST(fraction_done(physics, 10, 4) == 0.8);
-  physics.until.x_g.reset();
-  BOOST_TEST(fraction_done(physics, 100, 4) == 1);
 }

@@ -1,0 +1,93 @@
+#!/bin/sh
+# Steady states and branches by the program: a branch begins and ends at the states that `steady` finds, both know the
+# fold, on whose far side there is none, and the end of a march leads to the same state.
+#   sh validation/branch.sh path/to/capsule
+set -eu
+capsule=$(realpath "$1")
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+cd "$place"
+cat >case.toml <<'TOML'
+accuracy = 1e-3
+capsule.radius = 0.8
+membrane.law = "neo-hookean"
+membrane.bending_ratio = 0.01
+flow.capillary_number = 0.1
+until.x_g = 10
+TOML
+
+fail() {
+  echo "FAILED: $*"
+  cat log
+  exit 1
+}
+# ends CODE ARGUMENT...: the program does, with this code; what it says goes into log
+ends() {
+  expected=$1
+  shift
+  code=0
+  "$capsule" "$@" >log 2>&1 || code=$?
+  [ "$code" -eq "$expected" ] || fail "'$*' ended with $code, not with $expected"
+}
+# near A B DISTANCE WHAT
+near() {
+  awk -v a="$1" -v b="$2" -v d="$3" 'BEGIN { exit !(a != "" && b != "" && (a - b)^2 <= d * d) }' || fail "$4: $1 and $2"
+}
+# of DIRECTORY QUANTITY: in its summary, that of the end before that of a fold
+of() { sed -n "s/^ *\"$2\": \([^,]*\),*\$/\1/p" "$1/summary.json" | head -n 1; }
+# point DIRECTORY ROW COLUMN: of a branch; rows count from 1, "$" is the last one
+point() {
+  sed -n "1p;$(echo "$2" | awk '/[0-9]/ { $1 += 1 } 1')p" "$1/branch.csv" |
+    awk -F, -v name="$3" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) column = i } NR == 2 { print $column }'
+}
+key=flow.capillary_number
+
+ends 0 steady case.toml --out begin
+[ "$(of begin status)" = '"steady"' ] || fail 'no steady state'
+ends 0 steady case.toml --out end --set $key=0.15
+ends 0 branch case.toml --along $key --to 0.15 --out branch
+[ "$(of branch status)" = '"reached"' ] && [ "$(of branch folds)" = '[]' ] || fail 'the branch is cut off, or has folds'
+near "$(point branch 1 $key)" 0.1 0 'the first point'
+near "$(point branch '$' $key)" 0.15 0 'the last point'
+for quantity in v_g pressure_drop max_stretch min_film growth_rate; do
+  near "$(point branch 1 $quantity)" "$(of begin $quantity)" 1e-5 "$quantity where the branch begins"
+  near "$(point branch '$' $quantity)" "$(of end $quantity)" 1e-5 "$quantity where the branch ends"
+done
+cp branch/branch.csv before
+ends 0 branch case.toml --along $key --to 0.15 --out branch
+grep -q 'computed before' log && cmp before branch/branch.csv || fail 'a finished branch is computed again'
+
+ends 0 branch case.toml --along $key --to 0.3 --out folded
+[ "$(of folded status)" = '"unbounded"' ] || fail 'the branch does not run away'
+sed -n '/"folds"/,/\]/p' folded/summary.json >folds
+[ "$(grep -c "\"$key\"" folds)" -eq 1 ] || fail 'not one fold'
+fold=$(of folded $key)
+awk -F, -v fold="$fold" 'NR > 1 && $1 >= fold { exit 1 }' folded/branch.csv || fail "a point beyond the fold at $fold"
+near "$(point folded '$' growth_rate)" 10 9.999 'beyond the fold small motions grow'
+ends 3 steady case.toml --out beyond --set $key="$(awk -v f="$fold" 'BEGIN { print 1.002 * f }')"
+said=$(sed -n "s/.*fold at $key = \([0-9.]*\);.*/\1/p" log)
+near "$said" "$fold" "$(awk -v f="$fold" 'BEGIN { print 1e-4 * f }')" 'the fold'
+ends 0 steady case.toml --out below --set $key="$(awk -v f="$fold" 'BEGIN { print 0.998 * f }')"
+
+# From a march through the whole pore, and from what is no profile.
+ends 0 run case.toml --out march
+ends 0 steady case.toml --out from --from march
+for quantity in v_g pressure_drop max_stretch min_film; do
+  near "$(of from $quantity)" "$(of begin $quantity)" 1e-5 "$quantity from a march"
+  near "$(of march $quantity)" "$(of begin $quantity)" 3e-2 "$quantity at the end of the march"
+done
+ends 4 steady case.toml --out from --from none
+mkdir bad
+for text in 'time,x_g' "$(head -n 1 march/profiles.csv)" "$(head -n 1 march/profiles.csv; echo '1,2,three')"; do
+  echo "$text" >bad/profiles.csv
+  ends 4 steady case.toml --out from --from bad
+  grep -q "^error: cannot use 'bad/profiles.csv': " log || fail "nothing is said of '$text'"
+done
+
+# Of a sweep one run, by its number.
+ends 0 steady case.toml --out swept --set "sweep.\"$key\"=[0.1, 0.15]" --only 2
+near "$(of swept/capillary_number=0.15 v_g)" "$(of end v_g)" 0 'one run of a sweep'
+ends 0 steady case.toml --out swept --set "sweep.\"$key\"=[0.1, 0.15]" --list
+[ "$(cut -f 2,4 log | tr '\t\n' '= ')" = 'capillary_number=0.1=to be computed capillary_number=0.15=steady ' ] || fail 'another list'
+ends 2 steady case.toml --out swept --set "sweep.\"$key\"=[0.1, 0.15]" --only 3
+echo "branches, steady states and marches agree; a fold at $fold"
