@@ -8,7 +8,7 @@ build=$PWD/build-coverage
 find "$build" -name '*.gcda' -delete
 ctest --test-dir "$build" -j2 --output-on-failure -L unit
 ctest --test-dir "$build" -j2 --output-on-failure \
-  -R '^(bad_input|case_map|case-fig01-geometry|new_case|resume|same_bytes|sweep|two_at_once)$'
+  -R '^(bad_input|branch|case_map|case-fig01-geometry|new_case|resume|same_bytes|sweep|two_at_once|verdicts)$'
 
 # One file of counts for each source in each object; a line of a header counts as run if it was in any of them.
 rm -rf "$build/counts"

@@ -16,7 +16,7 @@ echo 'lint: clang-format is content'
 [ $# -gt 0 ] || exit 0
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-if run-clang-tidy -quiet -p "$1" -j "$(nproc)" "$PWD/${2:-(solver|report|validation)/}" >"$log" 2>/dev/null; then
+if run-clang-tidy -quiet -p "$1" -j "$(nproc)" "$PWD/${2:-(solver|report|validation|fuzz)/}" >"$log" 2>/dev/null; then
   echo "lint: clang-tidy is content with $(grep -c '^clang-tidy' "$log") files"
 else
   grep -E -A 4 '(error|warning):' "$log"

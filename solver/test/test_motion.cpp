@@ -233,7 +233,7 @@ BOOST_AUTO_TEST_CASE(wrinkles_on_chosen_nodes_begin_again_on_more) {
   bool stop = false;
   stopping.save = [&](const Checkpoint &checkpoint) {
     saved = checkpoint;
-    stop = checkpoint.position.size() == 2 * more;
+    stop = checkpoint.position.size() == 2L * more;
   };
   stopping.interrupted = [&] { return stop; };
   BOOST_REQUIRE((march(tight, {}, stopping).status == Status::interrupted));
