@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 using namespace capsule;
 
@@ -56,8 +57,7 @@ double at_table2(const History &history, const char *quantity) {
 bool study(const std::string &directory, unsigned jobs) {
   const std::vector<double> viscosity_ratios{0.2, 1, 5, 10};
   std::vector<RunInput> inputs;
-  for (const double ratio : viscosity_ratios)
-    inputs.push_back(long_tube(ratio));
+  std::ranges::transform(viscosity_ratios, std::back_inserter(inputs), long_tube);
   const std::vector<StudyRun> runs = run_all(directory, jobs, inputs);
 
   Table table("viscosity_ratio,rate,amplitude,x_g,v_g,v_g_error,pressure_drop,pressure_drop_error,residual,"

@@ -68,7 +68,7 @@ public:
         eigen_(state.system->small_motion(state.unknowns, viscosity_ratio)),
         inverse_(eigen_.eigenvectors().inverse()) {}
 
-  double speed() const { return state_.unknowns[2 * nodes]; }
+  double speed() const { return state_.unknowns[2L * nodes]; }
   // After a time, from the nodes' velocity before. Two motions that are none do not count: a displacement along the tube,
   // and a change of volume, which a shape at a small distance from the steady one seems to have, to second order.
   Residual carry(const Vector &velocity, double time) const {
@@ -84,7 +84,7 @@ public:
     }
     const Eigen::VectorXcd later =
         eigen_.eigenvectors() * (parts.array() * (time * eigen_.eigenvalues().array()).exp()).matrix();
-    const SeriesRow row = gauge_.row(0, state_.unknowns.head(2 * nodes), later.real());
+    const SeriesRow row = gauge_.row(0, state_.unknowns.head(2L * nodes), later.real());
     return {row.max_radial_velocity, row.max_axial_residual};
   }
 
@@ -121,15 +121,19 @@ std::string row_text(const Row &row) {
   const SeriesRow &first = before.series.back();
   const SeriesRow &last = free.series.back();
   const Residual predicted = motions.carry(velocity, last.time - first.time);
-  double time = 0;
-  for (constexpr double step = 0.05; time < 100; time += step)
-    if (const Residual later = motions.carry(velocity, time); std::max(later.radial, later.axial) < level)
-      break;
+  const auto is_steady = [&](double time) {
+    const Residual later = motions.carry(velocity, time);
+    return std::max(later.radial, later.axial) < level;
+  };
+  constexpr double step = 0.05;
+  int steps = 0;
+  while (steps < 2000 && !is_steady(step * steps))
+    ++steps;
   return fmt::format("{:.6f} {:.6f} {:.4e} {:.4e} {:.4e} {:.4e} {:.4e} {:.4e} {:.4e} {:.4e} {:.3f}", rate,
                      motions.speed(), first.max_radial_velocity, first.max_axial_residual,
                      last.max_radial_velocity, last.max_axial_residual, in_paper.max_radial_velocity,
                      in_paper.max_axial_residual, predicted.radial, predicted.axial,
-                     from_x_g + motions.speed() * time);
+                     from_x_g + motions.speed() * step * steps);
 }
 
 std::string rates_text() {
@@ -139,7 +143,7 @@ std::string rates_text() {
   for (int k = 0; k <= 16; ++k) {
     const double viscosity_ratio = std::pow(10, -2 + 0.25 * k);
     const double rate = state.system->growth_rates(state.unknowns, viscosity_ratio)[0].real();
-    text += fmt::format("{:.6g},{:.6f},{:.6f}\n", viscosity_ratio, rate, -state.unknowns[2 * nodes] / rate);
+    text += fmt::format("{:.6g},{:.6f},{:.6f}\n", viscosity_ratio, rate, -state.unknowns[2L * nodes] / rate);
   }
   return text;
 }

@@ -1,8 +1,10 @@
 // How fast does the motion converge with the number of the membrane's nodes? Table 1's capsule from x_g = -4 into
 // the tube, all other errors small.
 #include "study.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 using namespace capsule;
 
@@ -22,8 +24,7 @@ RunInput entrance(int nodes) {
 bool study(const std::string &directory, unsigned jobs) {
   const std::vector<int> nodes{40, 48, 56, 64, 72, 80, 88, 96, 144};
   std::vector<RunInput> inputs;
-  for (const int n : nodes)
-    inputs.push_back(entrance(n));
+  std::ranges::transform(nodes, std::back_inserter(inputs), entrance);
   const std::vector<StudyRun> runs = run_all(directory, jobs, inputs);
 
   Table table("nodes,pressure_drop,v_g,max_stretch,order");
