@@ -117,8 +117,11 @@ double seconds_of(const Function &function) {
   const double began = cpu_seconds();
   double spent = 0;
   int calls = 0;
-  for (; spent < 0.1; spent = cpu_seconds() - began, ++calls)
+  while (spent < 0.1) {
     function();
+    spent = cpu_seconds() - began;
+    ++calls;
+  }
   return spent / calls;
 }
 
