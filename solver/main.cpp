@@ -169,8 +169,7 @@ CaseInput one_run_of(CaseInput input, std::size_t number) {
   return input;
 }
 
-int run(const Arguments &arguments, const Method &method = {}) {
-  const CaseInput whole = read_case(arguments.path, arguments.overrides, method.task);
+int run(const CaseInput &whole, const Arguments &arguments, const Method &method) {
   const RunOptions options = run_options(arguments, whole, method.task);
   if (arguments.list)
     return list_runs(whole, options);
@@ -180,6 +179,10 @@ int run(const Arguments &arguments, const Method &method = {}) {
   if (std::ranges::any_of(results, is_interrupted))
     return interrupted;
   return std::ranges::any_of(results, has_failed) ? numerics_failed : done;
+}
+
+int run(const Arguments &arguments, const Method &method = {}) {
+  return run(read_case(arguments.path, arguments.overrides, method.task), arguments, method);
 }
 
 int run_steady(const Arguments &arguments) {
@@ -197,9 +200,10 @@ int run_branch(const Arguments &arguments) {
   const Task task{.motion = false,
                   .name =
                       fmt::format("branch --along {} --to {}", arguments.along, number_text(arguments.to))};
-  for (const RunInput &input : read_case(arguments.path, arguments.overrides, task).runs)
+  const CaseInput whole = read_case(arguments.path, arguments.overrides, task);
+  for (const RunInput &input : whole.runs)
     require_branch(input.physics, arguments.along, arguments.to);
-  return run(arguments,
+  return run(whole, arguments,
              {task, [&](const Case &physics, const Checkpoint & /*none is saved*/, const Control &control) {
                 return follow_branch(physics, arguments.along, arguments.to, control);
               }});

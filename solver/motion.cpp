@@ -16,6 +16,8 @@ constexpr double row_spacing = 0.05;  // of x_g
 constexpr int rows_in_time = 200;     // where time tells the progress
 constexpr double runaway_stretch = 4; // a membrane stretched beyond is reported as unbounded
 constexpr int steps_between_checkpoints = 250;
+// Of time: so many steps of the default that lead on by less are not going to arrive.
+constexpr double shortest_leg = 1e-4;
 constexpr double volume_drift_bound = 1e-2;
 // Buckles that the mesh cannot resolve: dents of the meridian, most of whose bending is in the shortest
 // waves.
@@ -178,9 +180,16 @@ private:
       if (record_due(integrator))
         return Status::reached;
     }
+    const double gone = integrator.time() - record_.time;
     record_.time = integrator.time();
     record_.position = integrator.state_at(integrator.time());
-    require_film(gauge_.film(record_.position));
+    const double film = gauge_.film(record_.position);
+    require_film(film);
+    if (physics_.time.scheme == Scheme::bdf && gone < shortest_leg)
+      throw NumericsFailure(
+          "unresolved",
+          fmt::format("the last {} steps lead on by {:.1g} only, with a film of {:.2g}", steps, gone, film),
+          "try a finer mesh.membrane");
     if (control_.save)
       control_.save(record_);
     return std::nullopt;

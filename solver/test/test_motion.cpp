@@ -268,6 +268,25 @@ BOOST_AUTO_TEST_CASE(contact_between_the_nodes_is_seen) {
   BOOST_TEST(outcome.failure == "touching");
 }
 
+// A viscous capsule is pressed onto the lip. Its film becomes too thin for the mesh, and the steps so short that it would
+// not arrive: that is said, soon.
+BOOST_AUTO_TEST_CASE(a_march_that_hardly_goes_on_is_stopped) {
+  Case physics;
+  physics.accuracy = 1e-3;
+  physics.pore.exit_x = 8;
+  physics.capsule.radius = 1.1;
+  physics.capsule.start_x = -2.5;
+  physics.membrane.law = LawName::skalak;
+  physics.flow.capillary_number = 0.05;
+  physics.flow.viscosity_ratio = 100;
+  physics.mesh.membrane = 24;
+  physics.until.x_g = 3;
+  const Outcome outcome = march(physics, {}, {});
+  BOOST_TEST((outcome.failure == "unresolved" || outcome.failure == "touching"));
+  BOOST_TEST(outcome.last.steps < 2000);
+  BOOST_TEST(outcome.last.series.back().min_film < 0.01);
+}
+
 // The centre of an extension is an unstable place: whatever is off it drifts away as exp(t). The capsule stays.
 BOOST_AUTO_TEST_CASE(a_long_extension_keeps_its_centre) {
   Case physics = in_extension(LawName::neo_hookean, 0, 0.1, 1);
