@@ -60,6 +60,20 @@ int study_main(int argc, char **argv,
   }
 }
 
+Case physics_of(const std::string &case_name) {
+  return read_case("cases/" + case_name).runs.front().physics;
+}
+
+Case short_entrance(int nodes, double end) {
+  Case physics = physics_of("table1-mesh");
+  physics.accuracy = 1e-3;
+  physics.mesh.membrane = nodes;
+  physics.capsule.start_x = -2.5;
+  physics.pore.exit_x = 8;
+  physics.until.x_g = end;
+  return physics;
+}
+
 std::vector<StudyRun> run_all(const std::string &directory, unsigned jobs, const std::vector<RunInput> &runs,
                               Found found) {
   CaseInput input;

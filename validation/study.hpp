@@ -14,6 +14,11 @@ namespace capsule {
 int study_main(int argc, char **argv,
                const std::function<bool(const std::string &directory, unsigned jobs)> &study);
 
+// What the first run of cases/<name> computes.
+Case physics_of(const std::string &case_name);
+// Table 1's sphere at accuracy 1e-3 on so many nodes, on a short way: from x_g = -2.5 to `end`, in a pore that ends at 8.
+Case short_entrance(int nodes, double end);
+
 // Columns of series.csv.
 using History = std::map<std::string, std::vector<double>>;
 // Those that studies compare: time, x_g, v_g, pressure_drop, volume_change.

@@ -25,7 +25,7 @@ double difference(const Targets &points, const Vector &velocity) {
 }
 
 double behind_mouth(const std::string &directory) {
-  Case physics = read_case("cases/fig07-viscosity-sphere").runs.at(0).physics;
+  Case physics = physics_of("fig07-viscosity-sphere");
   physics.pore.opening_angle_deg = 90;
   const FlowSystem empty(physics, spectral_basis(16), {});
   Table table("x,difference");

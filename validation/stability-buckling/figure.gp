@@ -1,27 +1,32 @@
 thresholds = "results/".case."/thresholds.csv"
 wrinkles = "results/".case."/wrinkles.csv"
-of(number, name) = column("capillary_number") == number ? column(name) : NaN
-stats thresholds using (column("nodes") == 80 ? column("stiffness") : NaN) name "fine" nooutput
-stats thresholds using (column("nodes") == 40 ? column("stiffness") : NaN) name "coarse" nooutput
-stats thresholds using (column("nodes") == 80 ? column("predicted") : NaN) name "sphere" nooutput
+of(nodes, name) = column("nodes") == nodes && column("depth") == 1e-4 ? column(name) : NaN
+dents(depth) = column("depth") == depth ? column("stiffness") : NaN
+stats thresholds using (of(80, "stiffness")) name "fine" nooutput
+stats thresholds using (of(40, "stiffness")) name "coarse" nooutput
+stats thresholds using (of(80, "predicted")) name "sphere" nooutput
+stats thresholds using (dents(1e-3)) name "deep" nooutput
+stats thresholds using (dents(1e-6)) name "shallow" nooutput
 stats wrinkles using (column("length")) name "length" nooutput
 stats wrinkles using (column("stiffness") == 1e-5 ? column("length") / column("fastest") : NaN) name "fastest" nooutput
 stats wrinkles using (column("stiffness") == 1e-5 ? column("length") / column("static") : NaN) name "static" nooutput
 stats wrinkles using (column("place")) name "place" nooutput
 
 eval figure("stability-buckling", 12, 8)
-set logscale y; set format y "10^{%T}"
-set xrange [35:85]; set yrange [1e-6:1e-2]
+set logscale xy; set format y "10^{%T}"
+set xrange [0.015:0.2]; set yrange [1e-6:1e-2]; set xtics (0.02, 0.05, 0.1, 0.2)
 set key bottom right
-set xlabel "{/:Italic N}_M"; set ylabel "smallest {/:Italic δ} without wrinkles"
-plot thresholds using "nodes":(of(0.09, "stiffness")) with points linetype 1 title "{/:Italic ε} = 0.09", \
-  thresholds using "nodes":(of(0.03, "stiffness")) with points linetype 2 title "{/:Italic ε} = 0.03", \
-  thresholds using "nodes":(of(0.09, "predicted")) with lines linetype 1 title "static buckling of a sphere, 0.09", \
-  thresholds using "nodes":(of(0.03, "predicted")) with lines linetype 2 title "static buckling of a sphere, 0.03"
-print "**Wrinkles.** Smallest bending stiffness with which dents of a ten-thousandth of the radius, the same on every mesh, become no", \
-  sprintf("wrinkles on the way of a neo-Hookean sphere of radius 0.8 into the tube: from %.1e to %.1e on 80 nodes", fine_min, fine_max), \
-  sprintf("(%.1e to %.1e on 40). A static sphere under the same largest compression would need %.1e to %.1e.", \
-    coarse_min, coarse_max, sphere_min, sphere_max)
+set xlabel "ε"; set ylabel "smallest {/:Italic δ} without wrinkles"
+plot for [i=1:3] thresholds using "capillary_number":(of(word("40 64 80", i) + 0, "stiffness")) with linespoints linetype i \
+    title "dents of 10^{-4}, ".word("40 64 80", i)." nodes", \
+  for [i=1:3] thresholds using "capillary_number":(dents(word("1e-3 1e-5 1e-6", i) + 0)) with points linetype 4 \
+    pointtype word("5 9 11", i) + 0 title "dents of 10^{-".word("3 5 6", i)."}, 80 nodes", \
+  thresholds using "capillary_number":(of(80, "predicted")) with lines linetype 5 title "static buckling of a sphere"
+print "**Wrinkles.** Smallest bending stiffness with which dents of a given depth (in radii), the same on every mesh, become no", \
+  "wrinkles on the way of a neo-Hookean sphere of radius 0.8 into the tube. With dents of a ten-thousandth:", \
+  sprintf("from %.1e to %.1e on 80 nodes (%.1e to %.1e on 40), and from %.1e to %.1e with dents of 1e-6 to 1e-3.", \
+    fine_min, fine_max, coarse_min, coarse_max, shallow_min, deep_max), \
+  sprintf("A static sphere under the same largest compression would need %.1e to %.1e.", sphere_min, sphere_max)
 
 eval figure("stability-wrinkles", 12, 8)
 set logscale xy; set format x "10^{%T}"

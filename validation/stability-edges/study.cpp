@@ -16,7 +16,7 @@ constexpr double far_entrance = 960; // and for a reservoir without end
 constexpr double far_start = -8;
 
 Case table1() {
-  Case physics = read_case("cases/table1-mesh").runs.front().physics;
+  Case physics = physics_of("table1-mesh");
   physics.accuracy = 1e-5;               // of the wall
   physics.membrane.bending_ratio = 1e-4; // no wrinkles that noise could start sooner or later
   physics.mesh.membrane = 48;

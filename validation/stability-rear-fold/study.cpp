@@ -1,5 +1,5 @@
 // How sharp is the fold at the rear of a flat capsule, and which mesh does it need? Steady states of Table 3's capsule
-// against the bending stiffness, on four meshes; and what the program says where the mesh does not do.
+// against the bending stiffness, on five meshes; and what the program says where the mesh does not do.
 #include "study.hpp"
 #include "continuation.hpp"
 #include "failure.hpp"
@@ -15,7 +15,7 @@ using namespace capsule;
 
 namespace {
 
-const std::vector<int> meshes{64, 96, 144, 216};
+const std::vector<int> meshes{48, 64, 96, 144, 216};
 constexpr int steps = 16;         // of delta, from 1e-2 to 1e-6
 constexpr double fitted = 1.1e-3; // slopes are fitted below
 constexpr double asked = 1e-2;    // relative error of the curvature
@@ -28,13 +28,10 @@ double stiffness(int step) {
 }
 
 Case flat(double bending_ratio) {
-  Case physics;
-  physics.capsule.radius = 0.9;
-  physics.capsule.aspect_ratio = 0.28;
-  physics.membrane.law = LawName::skalak;
-  physics.membrane.dilatation = 0;
+  Case physics = physics_of("fig10-viscosity-ellipsoid");
+  physics.flow.viscosity_ratio = 1;
   physics.membrane.bending_ratio = bending_ratio;
-  physics.flow.capillary_number = 0.04;
+  physics.output = {};
   return physics;
 }
 
@@ -219,8 +216,15 @@ Sharpness sharpness_of(const Folds &folds, const std::string &directory) {
   return result;
 }
 
-// What the program says of the given meshes: a failure for the right reason, or an error estimate that tells the error.
-bool answers_are_right(const std::vector<std::string> &texts, const Sharpness &sharpness,
+// Whether a mesh of so many nodes, or else the next finer one, has a steady state at all.
+bool has_state(const Folds &folds, int nodes, int step) {
+  return folds.contains({*std::ranges::lower_bound(meshes, nodes), step});
+}
+
+// What the program says of the given meshes. It must fail, and for this reason, where the branches above have shown that
+// the mesh has no steady state, and give one where they have; a march may arrive without, if its error estimate tells
+// the error.
+bool answers_are_right(const std::vector<std::string> &texts, const Folds &folds, const Sharpness &sharpness,
                        const std::string &directory) {
   Table answers("way,nodes,bending_ratio,answer,pressure_drop,estimate,error");
   bool right = true;
@@ -232,9 +236,11 @@ bool answers_are_right(const std::vector<std::string> &texts, const Sharpness &s
     const auto truth = sharpness.finest.find(given.step);
     const double best = truth == sharpness.finest.end() ? NAN : truth->second.pressure_drop;
     const double error = std::abs(std::stod(pressure_drop) - best);
-    const double beside = given.way == std::string("march") ? unsettled * best : 0;
-    const bool named = status == "unresolved" || status == "wrinkled";
-    right = right && (named || error <= 3 * std::stod(estimate) + beside);
+    const bool marched = given.way == std::string("march");
+    const bool estimated = error <= std::stod(estimate) + (marched ? unsettled * best : 0);
+    const bool named = status == (marched ? "wrinkled" : "unresolved");
+    right =
+        right && (has_state(folds, given.nodes, given.step) ? estimated : named || (marched && estimated));
     answers.add(fmt::format("{},{},{:.4e},{},{},{},{:.3e}", given.way, given.nodes, stiffness(given.step),
                             status, pressure_drop, estimate, error));
     fmt::print("{} on {} nodes, delta = {:.1e}: {}, pressure drop {}, estimated error {}, error {:.1e}\n",
@@ -253,8 +259,9 @@ bool study(const std::string &directory, unsigned jobs) {
         {fmt::format("{} {} {}", given.way, given.nodes, given.step), [=] { return answer(given); }});
   const std::vector<std::string> texts = make_all(directory, jobs, tasks);
   const auto middle = texts.begin() + std::ssize(meshes);
-  const Sharpness sharpness = sharpness_of(read_folds({texts.begin(), middle}), directory);
-  const bool right = answers_are_right({middle, texts.end()}, sharpness, directory);
+  const Folds folds = read_folds({texts.begin(), middle});
+  const Sharpness sharpness = sharpness_of(folds, directory);
+  const bool right = answers_are_right({middle, texts.end()}, folds, sharpness, directory);
   Table fit("curvature_slope,nodes_slope,end_slope,softest");
   fit.add(fmt::format("{:.4f},{:.4f},{:.4f},{:.3e}", sharpness.curvature_slope, sharpness.nodes_slope,
                       sharpness.end_slope, sharpness.softest));
@@ -267,8 +274,9 @@ bool study(const std::string &directory, unsigned jobs) {
             fmt::format("nodes for a curvature to {:.0e}: like delta^{:.3f}; the last ones with a "
                         "solution: like delta^{:.3f}",
                         asked, sharpness.nodes_slope, sharpness.end_slope)),
-      check(right,
-            "a mesh that does not do is unresolved or wrinkled, or its error estimate tells the error")};
+      check(right, "a mesh without a steady state is unresolved, or wrinkled on a march; else the error "
+                   "estimate tells "
+                   "the error")};
   return std::ranges::all_of(holds, [](bool each) { return each; });
 }
 

@@ -141,6 +141,24 @@ std::string pore_text(double capillary_number) {
                      last.x_g, last.max_stretch, last.v_g);
 }
 
+// Whether `capsule steady` names the fold: below it finds the state, above it fails as "fold" and says where that is.
+std::string steady_text(double capillary_number) {
+  const Outcome outcome = steady(sphere(capillary_number), {}, {});
+  return outcome.status == Status::steady ? "steady" : outcome.failure + " " + outcome.message;
+}
+
+bool fold_is_named(const std::vector<double> &distances_from_it, const std::vector<std::string> &texts,
+                   double capillary_number) {
+  bool right = true;
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    fmt::print("steady, eps = fold {:+.3f}: {}\n", distances_from_it[k], texts[k]);
+    const bool named = texts[k].starts_with("fold ") &&
+                       texts[k].find(fmt::format("{:.4f}", capillary_number)) != std::string::npos;
+    right = right && (distances_from_it[k] > 0 ? named : texts[k] == "steady");
+  }
+  return right;
+}
+
 // t = factor/distance^exponent + offset at the last three of times at distances that fall by four: the offset, what lies
 // on both sides of the passage, falls out of differences. The factor is that of the exponent 1/2.
 struct PowerLaw {
@@ -188,6 +206,9 @@ bool study(const std::string &directory, unsigned jobs) {
   for (const double distance : through_the_pore)
     tasks.push_back(
         {fmt::format("pore {:.8f}", distance), [=] { return pore_text(ghost.capillary_number + distance); }});
+  for (const double distance : through_the_pore)
+    tasks.push_back({fmt::format("steady {:.8f}", distance),
+                     [=] { return steady_text(ghost.capillary_number + distance); }});
   const std::vector<std::string> texts = make_all(directory, jobs, tasks);
 
   Table marches("distance,status,time,end,predicted,max_stretch,volume_change,steady_stretch");
@@ -217,7 +238,10 @@ bool study(const std::string &directory, unsigned jobs) {
   }
   marches.write(directory + "/marches.csv");
   write_atomically(directory + "/histories.csv", histories);
-  write_pore(through_the_pore, {texts.begin() + std::ssize(at), texts.end()}, directory);
+  const auto pore = texts.begin() + std::ssize(at);
+  const auto without_marching = pore + std::ssize(through_the_pore);
+  write_pore(through_the_pore, {pore, without_marching}, directory);
+  const bool fold = fold_is_named(through_the_pore, {without_marching, texts.end()}, ghost.capillary_number);
 
   const double nearest = at[distances - 1];
   const PowerLaw three = law_of(times, nearest), four = law_of(ends, nearest);
@@ -232,6 +256,8 @@ bool study(const std::string &directory, unsigned jobs) {
       check(steady,
             fmt::format("every march below comes to rest at the steady state, its stretch within {:.0e}",
                         allowed_stretch)),
+      check(fold,
+            "`capsule steady` fails above the fold, says so and where it is, and finds the state below"),
       check(std::abs(four.exponent - 0.5) <= allowed_exponent,
             fmt::format("time until it is unbounded (a stretch of 4): like distance^-{:.4f}", four.exponent)),
       check(std::abs(four.factor / passage - 1) <= allowed_factor,

@@ -16,16 +16,8 @@ const std::vector<double> ratios{0.001, 0.01, 0.1, 0.5, 1, 2, 10, 100, 1000};
 constexpr double last_x_g = 1;
 
 Case entrance(double viscosity_ratio) {
-  Case physics;
-  physics.accuracy = 1e-3;
-  physics.pore.exit_x = 8;
-  physics.capsule.radius = 0.8;
-  physics.capsule.start_x = -2.5;
-  physics.membrane.law = LawName::neo_hookean;
-  physics.flow.capillary_number = 0.09;
+  Case physics = short_entrance(64, last_x_g);
   physics.flow.viscosity_ratio = viscosity_ratio;
-  physics.mesh.membrane = 64;
-  physics.until.x_g = last_x_g;
   return physics;
 }
 
