@@ -1,7 +1,7 @@
 thresholds = "results/".case."/thresholds.csv"
 wrinkles = "results/".case."/wrinkles.csv"
 of(nodes, name) = column("nodes") == nodes && column("depth") == 1e-4 ? column(name) : NaN
-dents(depth) = column("depth") == depth ? column("stiffness") : NaN
+dents(depth) = abs(column("depth") / depth - 1) < 1e-6 ? column("stiffness") : NaN
 stats thresholds using (of(80, "stiffness")) name "fine" nooutput
 stats thresholds using (of(40, "stiffness")) name "coarse" nooutput
 stats thresholds using (of(80, "predicted")) name "sphere" nooutput
@@ -14,13 +14,13 @@ stats wrinkles using (column("place")) name "place" nooutput
 
 eval figure("stability-buckling", 12, 8)
 set logscale xy; set format y "10^{%T}"
-set xrange [0.015:0.2]; set yrange [1e-6:1e-2]; set xtics (0.02, 0.05, 0.1, 0.2)
+set xrange [0.015:0.2]; set yrange [2e-8:1e-2]; set xtics (0.02, 0.05, 0.1, 0.2)
 set key bottom right
 set xlabel "ε"; set ylabel "smallest {/:Italic δ} without wrinkles"
-plot for [i=1:3] thresholds using "capillary_number":(of(word("40 64 80", i) + 0, "stiffness")) with linespoints linetype i \
-    title "dents of 10^{-4}, ".word("40 64 80", i)." nodes", \
-  for [i=1:3] thresholds using "capillary_number":(dents(word("1e-3 1e-5 1e-6", i) + 0)) with points linetype 4 \
-    pointtype word("5 9 11", i) + 0 title "dents of 10^{-".word("3 5 6", i)."}, 80 nodes", \
+plot for [n in "40 64 80"] thresholds using "capillary_number":(of(n + 0, "stiffness")) \
+    with linespoints linetype n < 50 ? 3 : n < 70 ? 2 : 1 title "dents of 10^{-4}, ".n." nodes", \
+  for [k in "3 5 6"] thresholds using "capillary_number":(dents(10 ** -k)) with points linetype 4 pointtype 2 * k - 1 \
+    title "dents of 10^{-".k."}, 80 nodes", \
   thresholds using "capillary_number":(of(80, "predicted")) with lines linetype 5 title "static buckling of a sphere"
 print "**Wrinkles.** Smallest bending stiffness with which dents of a given depth (in radii), the same on every mesh, become no", \
   "wrinkles on the way of a neo-Hookean sphere of radius 0.8 into the tube. With dents of a ten-thousandth:", \

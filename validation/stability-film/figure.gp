@@ -6,7 +6,7 @@ of(layer, points, tolerance) = strcol("layer") eq layer && column("points") == p
 stats quadrature using (of("double", 12, 1)) name "plain" nooutput
 stats quadrature using (column("tolerance") < 1 ? column("error") / column("tolerance") : NaN) name "near" nooutput
 stats quadrature using (column("film_over_panel")) name "film" nooutput
-stats plugs using (strcol("status") eq "reached" ? column("film_over_panel") : NaN) name "panels" nooutput
+stats plugs using (strcol("end") eq "reached" ? column("film_over_panel") : NaN) name "panels" nooutput
 
 eval figure("stability-film", 12, 10)
 set logscale xy; set format "10^{%T}"
@@ -30,18 +30,20 @@ stats plugs using (on(96, 1, 1, "min_film")) name "thick" nooutput
 stats plugs using (on(96, 10, 1, "min_film")) name "thin" nooutput
 stats plugs using (strcol("end") eq "reached" ? column("radius") : NaN) name "size" nooutput
 stats plugs using (strcol("end") eq "reached" ? NaN : column("min_film")) name "pressed" nooutput
+least = 2e-5
+shown(film) = film < least ? least : film
 ends = system("awk -F, 'NR > 1 && $4 != \"reached\" && !($4 in seen) {seen[$4] = 1; printf \"%s%s\", n++ ? \" or \" : \"\", $4}' ".plugs)
 eval figure("stability-plugs", 12, 8)
 set logscale y; set format y "10^{%T}"
 set xrange [0.85:1.35]; set yrange [1e-5:1]
 set xlabel "{/:Italic R}_{eq} / {/:Italic R}_t"; set ylabel "film at the end / {/:Italic R}_t"
-set key bottom left
+set key outside top center maxrows 3
 plot for [i=1:3] plugs using "radius":(on(96, 10 ** (i - 1), 1, "min_film")) with linespoints linetype i \
     title sprintf("{/:Italic λ} = %d", 10 ** (i - 1)), \
-  for [n in "48 96"] plugs using (column("radius") + (n == 48 ? -0.004 : 0.004)):(on(n, 100, 0, "min_film")) \
-    with points linetype n / 24 + 1 pointtype n / 12 + 3 title "{/:Italic λ} = 100, ".ends.", ".n." nodes"
+  for [n in "48 96"] plugs using (column("radius") + (n == 48 ? -0.004 : 0.004)):(shown(on(n, 100, 0, "min_film"))) \
+    with points linetype n / 24 + 1 pointtype n / 12 + 3 title "{/:Italic λ} = 100, failed, ".n." nodes"
 print "**Nearly plugged.** Film of Skalak capsules (C = 1, ε = 0.05, 96 nodes) at x_g = 3 against their size: sizes up to", \
   sprintf("%.1f come in, with films down to %.3f with λ = 1 and %.3f with λ = 10. A capsule a hundred times as viscous as the", \
     size_max, thick_min, thin_min), \
-  sprintf("liquid outside does not give way in time: the film at the lip goes down to %.0e and less, where the run ends as %s.", \
-    pressed_max, ends)
+  sprintf("liquid outside does not give way in time: the film at the lip goes down to %.0e and less, where the run ends as %s (none left: drawn at %.0e).", \
+    pressed_max, ends, least)

@@ -16,7 +16,7 @@ eval figure("stability-time-step", 12, 10)
 set logscale xy; set format "10^{%T}"
 set xrange [2e-4:4e-1]; set yrange [2e-4:4e-1]; set size square
 set xlabel "limit from the eigenvalues"; set ylabel "step / ({/:Italic πR}_t^3/{/:Italic Q})"
-set key top left
+set key bottom right
 plot x with lines linetype 1 linecolor rgb "#808080" title "equal", \
   table using "frozen":(of("euler", "measured")) with points linetype 1 title "largest stable step, Euler", \
   table using "frozen":(of("rk2", "measured")) with points linetype 3 title "the same, Heun", \
