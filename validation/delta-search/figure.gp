@@ -1,6 +1,6 @@
 table = "results/".case."/search.csv"
 runs = "'table1-mesh' 'fig03-bending bending_ratio=0' 'fig07-viscosity-sphere viscosity_ratio=1' 'fig10-viscosity-ellipsoid viscosity_ratio=1'"
-names = "'NH 0.8, eps 0.09' 'NH 0.8, eps 0.12' 'SK 0.9, eps 0.04' 'SK ellipsoid, eps 0.04'"
+names = "'NH 0.8, {/:Italic ε} = 0.09' 'NH 0.8, {/:Italic ε} = 0.12' 'SK 0.9, {/:Italic ε} = 0.04' 'SK ellipsoid, {/:Italic ε} = 0.04'"
 of(i, mesh, name) = strcol("run") eq word(runs, i) && strcol("nodes") eq mesh && strcol("status") eq "reached" ? column(name) : NaN
 array stiff[4]
 do for [i=1:4] {

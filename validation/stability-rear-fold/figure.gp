@@ -32,7 +32,7 @@ eval figure("rear-fold-meshes", 12, 9)
 set logscale xy; set format x "10^{%T}"; set format y "10^{%T}"
 set xrange [1e-5:1e-2]; set yrange [1e-9:1e-1]
 set xlabel delta_label; set ylabel "relative error"
-set key top right
+set key outside top center maxrows 4
 plot for [i = 1:words(sizes) - 1] meshes using ($2 == word(sizes, i) + 0 ? $1 : NaN):"curvature_error" with linespoints linetype i \
     title "curvature, ".word(sizes, i)." nodes", \
   for [i = 1:words(sizes) - 1] meshes using ($2 == word(sizes, i) + 0 ? $1 : NaN):"pressure_error" with linespoints linetype i \
