@@ -79,7 +79,7 @@ public:
         eigen_(state.system->small_motion(state.unknowns, viscosity_ratio)),
         inverse_(eigen_.eigenvectors().inverse()) {}
 
-  double speed() const { return state_.unknowns[2 * nodes]; }
+  double speed() const { return state_.unknowns[2L * nodes]; }
   // After a time, from the nodes' velocity before, by all motions or by the slowest alone. Two motions that are none do
   // not count: a displacement along the tube, and a change of volume, which a shape at a small distance from the steady
   // one seems to have, to second order.
@@ -99,7 +99,7 @@ public:
       parts = (speeds <= (1 + 1e-9) * speeds.minCoeff()).select(parts, 0);
     const Eigen::VectorXcd later =
         eigen_.eigenvectors() * (parts.array() * (time * eigen_.eigenvalues().array()).exp()).matrix();
-    const SeriesRow row = gauge_.row(0, state_.unknowns.head(2 * nodes), later.real());
+    const SeriesRow row = gauge_.row(0, state_.unknowns.head(2L * nodes), later.real());
     return {row.max_radial_velocity, row.max_axial_residual};
   }
 
@@ -140,12 +140,15 @@ std::string row_text(const Row &row) {
   Case tube = physics;
   tube.pore.exit_x = long_tube;
   const Vector velocity = make_dynamics(tube).flow(before.position).velocity;
-  double time = 0;
-  for (constexpr double step = 0.05; time < 100; time += step)
-    if (const Residual later = motions.carry(velocity, time, all);
-        std::max(later.radial, later.axial) < level)
-      break;
-  const double predicted_length = from_x_g + motions.speed() * time;
+  const auto is_steady = [&](double time) {
+    const Residual later = motions.carry(velocity, time, all);
+    return std::max(later.radial, later.axial) < level;
+  };
+  constexpr double step = 0.05;
+  int steps = 0;
+  while (steps < 2000 && !is_steady(step * steps))
+    ++steps;
+  const double predicted_length = from_x_g + motions.speed() * step * steps;
   const double end = std::max(row.x_g, predicted_length) + 1;
   const Checkpoint at_table = reach(physics, end + room, row.x_g, before);
   const SeriesRow in_paper = reach(physics, paper_tube, row.x_g, before).series.back();
@@ -175,7 +178,7 @@ std::string rates_text() {
   for (int k = 0; k <= 16; ++k) {
     const double viscosity_ratio = std::pow(10, -2 + 0.25 * k);
     const double rate = state.system->growth_rates(state.unknowns, viscosity_ratio)[0].real();
-    text += fmt::format("{:.6g},{:.6f},{:.6f}\n", viscosity_ratio, rate, -state.unknowns[2 * nodes] / rate);
+    text += fmt::format("{:.6g},{:.6f},{:.6f}\n", viscosity_ratio, rate, -state.unknowns[2L * nodes] / rate);
   }
   return text;
 }
