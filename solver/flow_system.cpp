@@ -157,6 +157,8 @@ FlowSystem::FlowSystem(const Case &physics, const MeridianBasis &basis, const Fl
   panels_ = make_panels(graded_edges(0, pi, 0.75 * first_node, resolution.membrane_panel, Graded::both),
                         resolution.membrane_panel_points);
   self_ = make_self_rule(panels_, basis.nodes);
+  even_bend_ = bend(self_, [&](const Vector &zeta) { return basis.even(zeta, 2); });
+  odd_bend_ = bend(self_, [&](const Vector &zeta) { return basis.odd(zeta, 2); });
   for (int d = 0; d < 2; ++d) {
     even_[d] = basis.even(panels_.points, d);
     odd_[d] = basis.odd(panels_.points, d);
@@ -283,7 +285,8 @@ FlowSystem::Interaction FlowSystem::interact(const Vector &position, bool with_d
   const Eigen::Index n = basis_.size();
   Interaction shape;
   shape.position = position;
-  shape.nodes = {position.head(n), position.tail(n)};
+  const auto x = position.head(n), r = position.tail(n);
+  shape.nodes = {x, r, even_bend_ * x, odd_bend_ * r};
   Curve &membrane = shape.membrane;
   membrane.panel_points = panels_.rule.size();
   membrane.weights = panels_.weights;

@@ -145,6 +145,7 @@ private:
   MeridianBasis basis_;
   Panels panels_; // of the membrane, in zeta
   SelfRule self_;
+  Matrix even_bend_, odd_bend_;   // nodes -> bend of layer_potential.hpp
   Matrix even_[2], odd_[2];       // nodes -> quadrature points: value and derivative
   Matrix slope_even_, slope_odd_; // nodes -> derivative at the nodes
   NearRule near_, exit_near_;     // of the membrane's and the exit's panels

@@ -16,15 +16,12 @@ void complete(Curve &curve) {
 namespace {
 
 void find_nearest(const Panels &panels, SelfRule::Site &site) {
-  const Eigen::Index p = panels.rule.size();
+  constexpr double tiny = 1e-30; // instead of no gap: the kernel wants a direction
   site.gap_squared.minCoeff(&site.nearest);
-  const Eigen::Index place = site.nearest % p;
-  const Eigen::Index behind = p - 1 - place;
-  Vector others(p - 1);
-  others << panels.rule.nodes.head(place), panels.rule.nodes.tail(behind);
-  const Vector weights = lagrange_matrix(others, panels.rule.nodes.segment(place, 1)).transpose();
-  site.from_panel.resize(p);
-  site.from_panel << weights.head(place), 0, weights.tail(behind);
+  site.gap = panels.points[site.first_point + site.nearest] - site.zeta;
+  if (std::abs(site.gap) < tiny)
+    site.gap = tiny;
+  site.gap_squared[site.nearest] = site.gap * site.gap;
 }
 
 } // namespace
@@ -40,6 +37,7 @@ SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta) {
     const Eigen::Index first = std::max<Eigen::Index>(home - 1, 0);
     const Eigen::Index last = std::min(home + 1, panels.count() - 1);
     SelfRule::Site site;
+    site.zeta = zeta;
     site.first_point = first * p;
     const Eigen::Index n = (last - first + 1) * p;
     site.gap_squared = (panels.points.segment(site.first_point, n).array() - zeta).square();
@@ -56,6 +54,23 @@ SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta) {
     self.sites.push_back(std::move(site));
   }
   return self;
+}
+
+Matrix bend(const SelfRule &self, const std::function<Matrix(const Vector &zeta)> &second_derivative) {
+  const auto n = static_cast<Eigen::Index>(self.sites.size());
+  Vector zeta(n), gap(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    zeta[i] = self.sites[static_cast<std::size_t>(i)].zeta;
+    gap[i] = self.sites[static_cast<std::size_t>(i)].gap;
+  }
+  const GaussRule along = gauss_legendre(6);
+  Matrix sum;
+  for (Eigen::Index k = 0; k < along.size(); ++k) {
+    const double s = (1 + along.nodes[k]) / 2;
+    const Matrix part = (along.weights[k] / 2 * s * gap).asDiagonal() * second_derivative(zeta + s * gap);
+    sum = k == 0 ? part : sum + part;
+  }
+  return sum;
 }
 
 namespace {
@@ -93,39 +108,33 @@ double near_factor(Eigen::Index points, double tolerance) {
   return std::sinh(-std::log(tolerance) / (2.0 * static_cast<double>(points)));
 }
 
-// Parts of the distance of a curve's points within which a target's nearest one is no use: differences of their
-// positions are rounding errors. The double layer has the square of the distance below e.n, the single layer
-// d itself below components of e.
-double too_near(Layer layer) {
-  return layer == Layer::single ? 1e-4 : 2e-3;
-}
-
 // Weights of the panels that hold or touch a target on the curve. The kernel is
 // smooth - ln(m1) logarithmic with ln(m1) = ln(gap^2) + a smooth function (layer split of ring_kernel.hpp).
-KernelBlock integrate_self(Layer layer, double x0, double r0, const Curve &curve,
+KernelBlock integrate_self(Layer layer, const Targets &targets, Eigen::Index i, const Curve &curve,
                            const SelfRule::Site &site) {
+  const double x0 = targets.x[i];
+  const double r0 = targets.r[i];
   const Eigen::Index n = site.logarithm.size();
   const Eigen::Index first = site.first_point;
+  const Rings rings = rings_of(curve, first, n);
+  Separations apart = separations(x0, r0, rings);
+  const Eigen::Index nearest = first + site.nearest;
+  const double bend_x = targets.bend_x[i];
+  const double bend_r = targets.bend_r[i];
+  apart.row(site.nearest) << site.gap * (curve.x_zeta[nearest] - bend_x),
+      site.gap * (curve.r_zeta[nearest] - bend_r),
+      -site.gap * (bend_x * curve.normal_x[nearest] + bend_r * curve.normal_r[nearest]);
+
   KernelBlock smooth(4, n);
   KernelBlock logarithmic(4, n);
-  const Rings rings = rings_of(curve, first, n);
   if (layer == Layer::single)
-    ring_stokeslet_split(x0, r0, rings, rows_of(smooth), rows_of(logarithmic));
+    ring_stokeslet_split(r0, rings, apart, rows_of(smooth), rows_of(logarithmic));
   else
-    ring_stresslet_split(x0, r0, rings, rows_of(smooth), rows_of(logarithmic));
-  const auto dx2 = (curve.x.segment(first, n).array() - x0).square();
-  const auto dr2 = (curve.r.segment(first, n).array() - r0).square();
+    ring_stresslet_split(r0, rings, apart, rows_of(smooth), rows_of(logarithmic));
+  const auto dx2 = apart.col(0).array().square();
+  const auto dr2 = apart.col(1).array().square();
   const auto sum2 = (curve.r.segment(first, n).array() + r0).square();
-  Eigen::ArrayXd remainder = ((dx2 + dr2) / ((dx2 + sum2) * site.gap_squared.array())).log();
-  const Eigen::Index nearest = site.nearest;
-  if (std::sqrt(site.gap_squared[nearest]) < too_near(layer) * curve.weights[first + nearest]) {
-    const Eigen::Index p = curve.panel_points;
-    const Eigen::Index panel = nearest / p * p;
-    smooth.col(nearest).setZero(); // may be no number
-    remainder[nearest] = 0;
-    smooth.col(nearest) = smooth.middleCols(panel, p) * site.from_panel;
-    remainder[nearest] = remainder.segment(panel, p).matrix().dot(site.from_panel);
-  }
+  const Eigen::ArrayXd remainder = ((dx2 + dr2) / ((dx2 + sum2) * site.gap_squared.array())).log();
   const Eigen::ArrayXd element = curve.arc.segment(first, n).array() * curve.r.segment(first, n).array();
   const Eigen::ArrayXd plain = curve.weights.segment(first, n).array() * element;
   const Eigen::ArrayXd product = plain * remainder + site.logarithm.array() * element;
@@ -290,7 +299,7 @@ void assemble_layer(Layer layer, const Targets &targets, const Curve &curve, con
       const SelfRule::Site &site = self->sites[static_cast<std::size_t>(i)];
       self_begin = site.first_point;
       self_end = site.first_point + site.logarithm.size();
-      replace(integrate_self(layer, x0, r0, curve, site), self_begin);
+      replace(integrate_self(layer, targets, i, curve, site), self_begin);
     }
     for (Eigen::Index k = 0; k < panels; ++k) {
       const Eigen::Index first = k * p;

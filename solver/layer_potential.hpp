@@ -8,6 +8,7 @@
 //   self     a target that lies on the curve: product weights for the logarithm on the panels that hold or
 //   touch it
 #include "quadrature.hpp"
+#include <functional>
 #include <vector>
 
 namespace capsule {
@@ -27,8 +28,12 @@ struct Curve {
 };
 void complete(Curve &curve);
 
+// From a target on the curve to the nearest of the curve's points, at the gap h in zeta (SelfRule), it is
+//   e = h (t - bend)   and   e.n = -h bend.n   with   bend = h int_0^1 s (x, r)_zetazeta(zeta + s h) ds,
+// t = (x, r)_zeta and the normal n at that point. Differences of positions have no digits left where h is small.
 struct Targets {
   Vector x, r;
+  Vector bend_x = {}, bend_r = {}; // empty for targets off the curve
   Eigen::Index size() const { return x.size(); }
 };
 
@@ -39,14 +44,16 @@ struct SelfRule {
     Eigen::Index first_point = 0; // of the run of panels with product weights
     Vector gap_squared;           // (zeta_q - zeta_target)^2
     Vector logarithm; // integral of ln((zeta - zeta_target)^2) times the cardinal polynomial of point q
-    // The nearest point, which may all but coincide with the target, and the weights that find a smooth
-    // function there from the other points of its panel.
+    double zeta = 0;
+    // The nearest point q, which may all but coincide with the target, and its gap h = zeta_q - zeta.
     Eigen::Index nearest = 0;
-    Vector from_panel;
+    double gap = 0;
   };
   std::vector<Site> sites; // one a target
 };
 SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta);
+// One component of `bend`, a row for each target, from the second derivative at any points.
+Matrix bend(const SelfRule &self, const std::function<Matrix(const Vector &zeta)> &second_derivative);
 
 enum class Layer { single, dbl };
 

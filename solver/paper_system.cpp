@@ -149,16 +149,17 @@ Rings rings_of(const ElementSamples &s, Index first, Index count) {
 // Gauss's rule for the first two terms, the logarithmic rule for the third.
 void split_element(Layer layer, double x0, double r0, const ElementCurve &curve, Index element, bool at_first,
                    const UnitRule &rule, KernelTable &gauss, KernelTable &logarithm) {
-  const auto kernel = layer == Layer::single ? ring_stokeslet_split : ring_stresslet_split;
   KernelTable smooth(logarithm_points, 4), logarithmic(logarithm_points, 4);
+  const auto evaluate = [&](const Rings &rings) {
+    const auto kernel = layer == Layer::single ? ring_stokeslet_split : ring_stresslet_split;
+    kernel(r0, rings, separations(x0, r0, rings), row_of(smooth), row_of(logarithmic));
+  };
   const ElementSamples &graded = at_first ? curve.first : curve.last;
-  kernel(x0, r0, rings_of(graded, element * logarithm_points, logarithm_points), row_of(smooth),
-         row_of(logarithmic));
+  evaluate(rings_of(graded, element * logarithm_points, logarithm_points));
   logarithm =
       2 * graded.area.segment(element * logarithm_points, logarithm_points).asDiagonal() * logarithmic;
 
-  kernel(x0, r0, rings_of(curve.gauss, element * gauss_points, gauss_points), row_of(smooth),
-         row_of(logarithmic));
+  evaluate(rings_of(curve.gauss, element * gauss_points, gauss_points));
   for (Index k = 0; k < gauss_points; ++k) {
     const Index q = element * gauss_points + k;
     const double t = at_first ? rule.nodes(k) : 1 - rule.nodes(k);

@@ -28,8 +28,9 @@ struct Pair {
   double over_R;
 };
 
+// Of the vector e from target to ring, whose product with the ring's normal depends on the azimuth.
 struct Normal {
-  double x;
+  double along; // e.n in the target's half plane
   double r;
 };
 
@@ -40,9 +41,7 @@ struct Components {
   double rr;
 };
 
-[[gnu::always_inline]] inline Pair pair_of(double x0, double r0, double x, double r) {
-  const double dx = x - x0;
-  const double dr = r - r0;
+[[gnu::always_inline]] inline Pair pair_of(double dx, double dr, double r0, double r) {
   const double R2 = dx * dx + (r + r0) * (r + r0);
   const double difference = 4 * r * r0;
   const Ratio m1 = ratio(dx * dx + dr * dr, R2, difference);
@@ -92,7 +91,7 @@ struct Components {
 
 [[gnu::always_inline]] inline Components stresslet(const Pair &p, const Normal &normal,
                                                    const EllipticIntegrals &i) {
-  const double a = p.dx * normal.x + p.dr * normal.r;
+  const double a = normal.along;
   const double quintic = (2 + p.m1) * i.b + p.m1 * (1 + 2 * p.m1) * i.d;
   return stresslet(p, a, 2 * p.r0 * normal.r, (a * p.over_d2) * quintic * p.over_d2,
                    (i.b + 2 * p.m1 * i.d) * p.over_d2 * p.over_R2, (i.c + 2 * i.d) * p.over_R2 * p.over_R2,
@@ -101,7 +100,7 @@ struct Components {
 
 [[gnu::always_inline]] inline Components stresslet(const Pair &p, const Normal &normal,
                                                    const EllipticLogarithms &i) {
-  const double a = p.dx * normal.x + p.dr * normal.r;
+  const double a = normal.along;
   const double over_R4 = p.over_R2 * p.over_R2;
   return stresslet(p, a, 2 * p.r0 * normal.r, a * i.quintic_over_m1_squared * over_R4,
                    (i.b_over_m1 + 2 * i.d) * over_R4, (i.c + 2 * i.d) * over_R4,
@@ -154,109 +153,130 @@ struct StressletSplit {
   }
 };
 
+// Where a target and its rings come from. By reference: vector loads of copies that were just made number by number
+// would wait for them.
+struct ByPosition {
+  double x0;
+  double r0;
+  const Rings &rings;
+  [[gnu::always_inline]] Pair pair(int k) const {
+    return pair_of(rings.x[k] - x0, rings.r[k] - r0, r0, rings.r[k]);
+  }
+  [[gnu::always_inline]] Normal normal(const Pair &p, int k) const {
+    return {p.dx * rings.normal_x[k] + p.dr * rings.normal_r[k], rings.normal_r[k]};
+  }
+};
+
+struct BySeparation {
+  double r0;
+  const Rings &rings;
+  const double *dx;
+  const double *dr;
+  const double *along_normal;
+  [[gnu::always_inline]] Pair pair(int k) const { return pair_of(dx[k], dr[k], r0, rings.r[k]); }
+  [[gnu::always_inline]] Normal normal(const Pair & /*p*/, int k) const {
+    return {along_normal[k], rings.normal_r[k]};
+  }
+};
+
+template <class Kernel, class Source>
+[[gnu::always_inline]] inline void evaluate(const Source &source, int ring,
+                                            const std::array<KernelRow, Kernel::parts> &out, int k) {
+  const Pair pair = source.pair(ring);
+  Normal normal{0, 0};
+  if constexpr (Kernel::takes_normal) {
+    normal = source.normal(pair, ring);
+  }
+  Kernel::evaluate(pair, normal, out, k);
+}
+
 // Rings that go through the arithmetic together: the widest vector, or several of narrower ones.
 constexpr int block = 8;
 using Block = std::array<double, block>;
 
-template <class Kernel>
-[[gnu::always_inline]] inline void block_of_rings(double x0, double r0, const Rings &rings,
-                                                  const std::array<KernelRow, Kernel::parts> &out) {
-#pragma omp simd
-  for (int k = 0; k < block; ++k) {
-    Normal normal{0, 0};
-    if constexpr (Kernel::takes_normal) {
-      normal = {rings.normal_x[k], rings.normal_r[k]};
-    }
-    Kernel::evaluate(pair_of(x0, r0, rings.x[k], rings.r[k]), normal, out, k);
-  }
-}
-
-// Fewer rings than a block: the last one is repeated, in a copy.
-template <class Kernel>
-[[gnu::always_inline]] inline void few_rings(double x0, double r0, const Rings &rings,
+// Fewer rings than a block: the last one is repeated.
+template <class Kernel, class Source>
+[[gnu::always_inline]] inline void few_rings(const Source &source,
                                              const std::array<KernelRow, Kernel::parts> &out) {
-  Block x{};
-  Block r{};
-  Block normal_x{};
-  Block normal_r{};
-  for (int k = 0; k < block; ++k) {
-    const int ring = std::min(k, rings.count - 1);
-    x[k] = rings.x[ring];
-    r[k] = rings.r[ring];
-    if constexpr (Kernel::takes_normal) {
-      normal_x[k] = rings.normal_x[ring];
-      normal_r[k] = rings.normal_r[ring];
-    }
-  }
+  const int count = source.rings.count;
   std::array<std::array<Block, 4>, Kernel::parts> results;
   std::array<KernelRow, Kernel::parts> rows;
   for (std::size_t part = 0; part < Kernel::parts; ++part) {
     auto &[xx, xr, rx, rr] = results[part];
     rows[part] = {xx.data(), xr.data(), rx.data(), rr.data()};
   }
-  block_of_rings<Kernel>(x0, r0, {block, x.data(), r.data(), normal_x.data(), normal_r.data()}, rows);
+#pragma omp simd
+  for (int k = 0; k < block; ++k) {
+    evaluate<Kernel>(source, std::min(k, count - 1), rows, k);
+  }
   for (std::size_t part = 0; part < Kernel::parts; ++part) {
-    std::copy_n(rows[part].xx, rings.count, out[part].xx);
-    std::copy_n(rows[part].xr, rings.count, out[part].xr);
-    std::copy_n(rows[part].rx, rings.count, out[part].rx);
-    std::copy_n(rows[part].rr, rings.count, out[part].rr);
+    std::copy_n(rows[part].xx, count, out[part].xx);
+    std::copy_n(rows[part].xr, count, out[part].xr);
+    std::copy_n(rows[part].rx, count, out[part].rx);
+    std::copy_n(rows[part].rr, count, out[part].rr);
   }
 }
 
 // Whole blocks; the last one overlaps the one before.
-template <class Kernel>
-[[gnu::always_inline]] inline void all_rings(double x0, double r0, const Rings &rings,
+template <class Kernel, class Source>
+[[gnu::always_inline]] inline void all_rings(const Source &source,
                                              const std::array<KernelRow, Kernel::parts> &out) {
-  if (rings.count > 0 && rings.count < block) {
-    few_rings<Kernel>(x0, r0, rings, out);
+  const int count = source.rings.count;
+  if (count > 0 && count < block) {
+    few_rings<Kernel>(source, out);
     return;
   }
-  for (int first = 0; first < rings.count; first += block) {
-    const int k = std::min(first, rings.count - block);
-    Rings from{block, rings.x + k, rings.r + k, nullptr, nullptr};
-    if constexpr (Kernel::takes_normal) {
-      from.normal_x = rings.normal_x + k;
-      from.normal_r = rings.normal_r + k;
+  for (int first = 0; first < count; first += block) {
+    const int begin = std::min(first, count - block);
+#pragma omp simd
+    for (int k = 0; k < block; ++k) {
+      evaluate<Kernel>(source, begin + k, out, begin + k);
     }
-    std::array<KernelRow, Kernel::parts> to;
-    for (std::size_t part = 0; part < Kernel::parts; ++part) {
-      to[part] = {out[part].xx + k, out[part].xr + k, out[part].rx + k, out[part].rr + k};
-    }
-    block_of_rings<Kernel>(x0, r0, from, to);
   }
 }
 
 // The same loops, compiled once for each class of processors.
 struct Baseline {
-  template <class Kernel, class... Rows>
-  static void run(double x0, double r0, const Rings &rings, const Rows &...rows) {
-    all_rings<Kernel>(x0, r0, rings, {rows...});
+  template <class Kernel, class Source, class... Rows>
+  static void run(const Source &source, const Rows &...rows) {
+    all_rings<Kernel>(source, {rows...});
   }
 };
 
 #ifdef __x86_64__
 struct Avx2 {
-  template <class Kernel, class... Rows>
-  [[gnu::target("avx2,fma")]] static void run(double x0, double r0, const Rings &rings, const Rows &...rows) {
-    all_rings<Kernel>(x0, r0, rings, {rows...});
+  template <class Kernel, class Source, class... Rows>
+  [[gnu::target("avx2,fma")]] static void run(const Source &source, const Rows &...rows) {
+    all_rings<Kernel>(source, {rows...});
   }
 };
 
 struct Avx512 {
-  template <class Kernel, class... Rows>
-  [[gnu::target("avx512f,avx512dq,avx512vl,fma")]] static void run(double x0, double r0, const Rings &rings,
+  template <class Kernel, class Source, class... Rows>
+  [[gnu::target("avx512f,avx512dq,avx512vl,fma")]] static void run(const Source &source,
                                                                    const Rows &...rows) {
-    all_rings<Kernel>(x0, r0, rings, {rows...});
+    all_rings<Kernel>(source, {rows...});
   }
 };
 #endif
 
+template <class Processor, class Kernel>
+void by_position(double x0, double r0, const Rings &rings, const KernelRow &out) {
+  Processor::template run<Kernel>(ByPosition{x0, r0, rings}, out);
+}
+
+template <class Processor, class Kernel>
+void by_separation(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
+                   const KernelRow &logarithmic) {
+  Processor::template run<Kernel>(
+      BySeparation{r0, rings, apart.col(0).data(), apart.col(1).data(), apart.col(2).data()}, smooth,
+      logarithmic);
+}
+
 template <class Processor>
 RingKernels kernels_for(const std::string &instructions) {
-  return {instructions, Processor::template run<Stokeslet, KernelRow>,
-          Processor::template run<Stresslet, KernelRow>,
-          Processor::template run<StokesletSplit, KernelRow, KernelRow>,
-          Processor::template run<StressletSplit, KernelRow, KernelRow>};
+  return {instructions, by_position<Processor, Stokeslet>, by_position<Processor, Stresslet>,
+          by_separation<Processor, StokesletSplit>, by_separation<Processor, StressletSplit>};
 }
 
 const RingKernels &best() {
@@ -281,6 +301,17 @@ std::vector<RingKernels> available_ring_kernels() {
   return kernels;
 }
 
+Separations separations(double x0, double r0, const Rings &rings) {
+  const auto array = [&](const double *values) {
+    return Eigen::Map<const Eigen::ArrayXd>(values, rings.count);
+  };
+  Separations apart(rings.count, 3);
+  apart.col(0) = array(rings.x) - x0;
+  apart.col(1) = array(rings.r) - r0;
+  apart.col(2) = apart.col(0).array() * array(rings.normal_x) + apart.col(1).array() * array(rings.normal_r);
+  return apart;
+}
+
 void ring_stokeslet(double x0, double r0, const Rings &rings, const KernelRow &out) {
   best().stokeslet(x0, r0, rings, out);
 }
@@ -289,14 +320,14 @@ void ring_stresslet(double x0, double r0, const Rings &rings, const KernelRow &o
   best().stresslet(x0, r0, rings, out);
 }
 
-void ring_stokeslet_split(double x0, double r0, const Rings &rings, const KernelRow &smooth,
+void ring_stokeslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
                           const KernelRow &logarithmic) {
-  best().stokeslet_split(x0, r0, rings, smooth, logarithmic);
+  best().stokeslet_split(r0, rings, apart, smooth, logarithmic);
 }
 
-void ring_stresslet_split(double x0, double r0, const Rings &rings, const KernelRow &smooth,
+void ring_stresslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
                           const KernelRow &logarithmic) {
-  best().stresslet_split(x0, r0, rings, smooth, logarithmic);
+  best().stresslet_split(r0, rings, apart, smooth, logarithmic);
 }
 
 } // namespace capsule

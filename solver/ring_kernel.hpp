@@ -12,11 +12,12 @@
 // Every kernel is the sum smooth - ln(m1) logarithmic, m1 = d^2/R^2, d the distance to the nearest and R to
 // the farthest point of the ring. Both parts are smooth along a smooth meridian, on the scale of the
 // target's distance to the axis; the split form hands them out apart for product quadrature next to the
-// target.
+// target. There it asks for separations, because differences of positions may have no digits left.
 // Accuracy: 1e-15 of the largest component (stokeslet), 2e-15 of 3/(4 pi) int 1/|e|^2 (stresslet, whose e.n
 // may cancel), typically 2e-16 of both, at any distance from 1e-50 to 1e50 and on the axis too.
 // A ring that coincides with the target gives infinities or NaN: terms like dx^2/d^2 depend on the
 // direction there. Only the logarithmic parts have a limit, and return it. Nothing is thrown.
+#include "linear_algebra.hpp"
 #include <string>
 #include <vector>
 
@@ -38,11 +39,16 @@ struct Rings {
   const double *normal_r;
 };
 
+// The vector e from the target to the rings' points in its half plane, axial and radial, and e.n: three columns.
+using Separations = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+// By differences of positions.
+Separations separations(double x0, double r0, const Rings &rings);
+
 void ring_stokeslet(double x0, double r0, const Rings &rings, const KernelRow &out);
 void ring_stresslet(double x0, double r0, const Rings &rings, const KernelRow &out);
-void ring_stokeslet_split(double x0, double r0, const Rings &rings, const KernelRow &smooth,
+void ring_stokeslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
                           const KernelRow &logarithmic);
-void ring_stresslet_split(double x0, double r0, const Rings &rings, const KernelRow &smooth,
+void ring_stresslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
                           const KernelRow &logarithmic);
 
 // The four kernels compiled for a class of processors. The functions above are the first of those that run

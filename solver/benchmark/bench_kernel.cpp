@@ -70,10 +70,10 @@ int main(int argc, char **argv) {
       kernels.stresslet(x0, r0, row.rings(), row.out(1));
     });
     add("stokeslet_split/" + kernels.instructions, [kernels](double x0, double r0, Row &row) {
-      kernels.stokeslet_split(x0, r0, row.rings(), row.out(0), row.out(1));
+      kernels.stokeslet_split(r0, row.rings(), separations(x0, r0, row.rings()), row.out(0), row.out(1));
     });
     add("stresslet_split/" + kernels.instructions, [kernels](double x0, double r0, Row &row) {
-      kernels.stresslet_split(x0, r0, row.rings(), row.out(0), row.out(1));
+      kernels.stresslet_split(r0, row.rings(), separations(x0, r0, row.rings()), row.out(0), row.out(1));
     });
   }
   benchmark::Initialize(&argc, argv);

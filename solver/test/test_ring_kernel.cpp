@@ -97,8 +97,9 @@ Components single_split_sum(decltype(RingKernels::stokeslet_split) kernel, const
                             const Ring &ring) {
   Components p{};
   Components q{};
-  kernel(target.x, target.r, {1, &ring.x, &ring.r, &ring.normal_x, &ring.normal_r},
-         {&p.xx, &p.xr, &p.rx, &p.rr}, {&q.xx, &q.xr, &q.rx, &q.rr});
+  const Rings rings{1, &ring.x, &ring.r, &ring.normal_x, &ring.normal_r};
+  kernel(target.r, rings, separations(target.x, target.r, rings), {&p.xx, &p.xr, &p.rx, &p.rr},
+         {&q.xx, &q.xr, &q.rx, &q.rr});
   const double l = ln_m1(target, ring);
   return {p.xx - l * q.xx, p.xr - l * q.xr, p.rx - l * q.rx, p.rr - l * q.rr};
 }
@@ -292,13 +293,15 @@ Velocity potential_on_surface(decltype(RingKernels::stokeslet_split) kernel, con
     const Surface plain = surface(ellipse, even_panels(end, zeta, 8));
     Rows smooth(plain.rings.size());
     Rows unused(plain.rings.size());
-    kernel(target.x, target.r, plain.rings.view(), smooth.view(), unused.view());
+    kernel(target.r, plain.rings.view(), separations(target.x, target.r, plain.rings.view()), smooth.view(),
+           unused.view());
     const Velocity part = weighted_sum(plain, smooth, density);
 
     Surface graded = surface(ellipse, graded_panels(end, zeta));
     Rows unused_too(graded.rings.size());
     Rows logarithmic(graded.rings.size());
-    kernel(target.x, target.r, graded.rings.view(), unused_too.view(), logarithmic.view());
+    kernel(target.r, graded.rings.view(), separations(target.x, target.r, graded.rings.view()),
+           unused_too.view(), logarithmic.view());
     for (std::size_t k = 0; k < graded.rings.size(); ++k) {
       const Ring ring = graded.rings[k];
       graded.weights[k] *= ln_m1(target, ring);
@@ -485,20 +488,22 @@ BOOST_AUTO_TEST_CASE(far_ring_acts_like_a_point) {
   BOOST_TEST(std::abs(stresslet.xx * far * far / 1.5 - 1) < 1e-13);
 }
 
+// Along a curve the smooth part has a limit, too, which any separation shows that has its digits.
 BOOST_AUTO_TEST_CASE(at_the_target_only_the_logarithmic_part_has_a_value) {
   const Ring ring{0.3, 0.5, 0.6, 0.8};
+  const Rings rings{1, &ring.x, &ring.r, &ring.normal_x, &ring.normal_r};
+  const double curvature = 0.7;
+  const auto apart = [&](double d) { return Separations{{0.8 * d, -0.6 * d, curvature / 2 * d * d}}; };
   for (const RingKernels &kernels : available_ring_kernels()) {
     for (const auto kernel : {kernels.stokeslet_split, kernels.stresslet_split}) {
-      Rows smooth(1);
-      Rows logarithmic(1);
-      kernel(ring.x, ring.r, {1, &ring.x, &ring.r, &ring.normal_x, &ring.normal_r}, smooth.view(),
-             logarithmic.view());
+      Rows smooth(1), logarithmic(1), smooth_beside(1), logarithmic_beside(1);
+      kernel(ring.r, rings, apart(1e-9), smooth_beside.view(), logarithmic_beside.view());
+      kernel(ring.r, rings, apart(1e-30), smooth.view(), logarithmic.view());
+      BOOST_TEST(distance(smooth[0], smooth_beside[0]) < 1e-8);
+      kernel(ring.r, rings, apart(0), smooth.view(), logarithmic.view());
       BOOST_TEST(std::isnan(smooth.xx[0]));
       BOOST_TEST(std::isnan(smooth.rr[0]));
-      Rows beside(1);
-      const double x = ring.x + 1e-9;
-      kernel(ring.x, ring.r, {1, &x, &ring.r, &ring.normal_x, &ring.normal_r}, smooth.view(), beside.view());
-      BOOST_TEST(distance(logarithmic[0], beside[0]) < 1e-8);
+      BOOST_TEST(distance(logarithmic[0], logarithmic_beside[0]) < 1e-8);
     }
     BOOST_TEST(!std::isfinite(single(kernels.stokeslet, {ring.x, ring.r}, ring).xx));
     BOOST_TEST(!std::isfinite(single(kernels.stresslet, {ring.x, ring.r}, ring).xx));
