@@ -104,6 +104,17 @@ void remember(const Vector &position, const Vector &solution, FlowSystem::Correc
   }
 }
 
+NumericsFailure unresolved(const char *what) {
+  return {"unresolved", what, "try a finer mesh.membrane"};
+}
+
+Matrix inverse_of(const Matrix &system) {
+  Matrix inverse = system.partialPivLu().inverse();
+  if (!inverse.allFinite())
+    throw unresolved("the membrane's system is singular");
+  return inverse;
+}
+
 // Generalised conjugate residuals, preconditioned with an earlier shape's inverse and started from the
 // continuation of the last solutions.
 //   residual_of   a guess
@@ -112,29 +123,34 @@ void remember(const Vector &position, const Vector &solution, FlowSystem::Correc
 template <class Residual, class Apply, class Build>
 Vector solve(const Vector &position, double tolerance, FlowSystem::Corrector &corrector,
              const Residual &residual_of, const Apply &apply, const Build &matrix) {
-  constexpr int few = 10; // corrections, of which a fresh inverse costs some tens
+  constexpr int few = 10;           // corrections, of which a fresh inverse costs some tens
+  constexpr double nothing = 1e-12; // new in an image, but for rounding errors
   if (corrector.inverse.size() == 0)
-    corrector.inverse = matrix().partialPivLu().inverse();
+    corrector.inverse = inverse_of(matrix());
   Vector solution = continued(corrector, position);
   for (const bool fresh : {false, true}) {
     if (fresh)
-      corrector.inverse = matrix().partialPivLu().inverse();
+      corrector.inverse = inverse_of(matrix());
     Vector residual = residual_of(solution);
     std::vector<Vector> directions, images;
     for (int k = 0; k <= few; ++k) {
       Vector direction = corrector.inverse * residual; // nearly the error
-      if (direction.cwiseAbs().maxCoeff() <= tolerance * solution.cwiseAbs().maxCoeff()) {
+      if (direction.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <=
+          tolerance * solution.cwiseAbs().maxCoeff()) {
         solution += direction;
         remember(position, solution, corrector);
         return solution;
       }
       Vector image = apply(direction);
+      const double whole = image.norm();
       for (std::size_t j = 0; j < images.size(); ++j) {
         const double share = images[j].dot(image);
         image -= share * images[j];
         direction -= share * directions[j];
       }
       const double norm = image.norm();
+      if (!(norm > nothing * whole)) // or no number: the inverse is no use
+        break;
       images.push_back(image / norm);
       directions.push_back(direction / norm);
       const double share = images.back().dot(residual);
@@ -142,7 +158,7 @@ Vector solve(const Vector &position, double tolerance, FlowSystem::Corrector &co
       residual -= share * images.back();
     }
   }
-  throw NumericsFailure("unresolved", "the membrane's system does not converge", "try a finer mesh.membrane");
+  throw unresolved("the membrane's system does not converge");
 }
 
 } // namespace
@@ -530,6 +546,9 @@ FlowState FlowSystem::flow(const Interaction &shape, const Vector &load, Memory 
   } else if (has_wall()) {
     state.velocity -= shape.from_wall * (wall_inverse_ * at_wall);
   }
+  if (!state.velocity.allFinite())
+    throw NumericsFailure("not-a-number", "the membrane's velocity is not a number",
+                          "try a finer mesh.membrane");
   if (has_wall())
     state.pressure_drop = wall_inverse_.row(wall_.size()).dot(at_wall);
   return state;
@@ -559,7 +578,7 @@ Matrix FlowSystem::mobility(const Interaction &shape, Memory &memory) const {
   Matrix single = single_layer(shape, answer);
   if (!has_inner_flow())
     return single;
-  memory.velocity.inverse = membrane_operator(shape, answer).partialPivLu().inverse();
+  memory.velocity.inverse = inverse_of(membrane_operator(shape, answer));
   return memory.velocity.inverse * single;
 }
 

@@ -12,7 +12,8 @@
 // A is inverted once; lambda = 1 leaves no system to solve in a step, any other lambda one of the membrane's
 // size. Lengths, velocities and pressures are in the paper's scales; with flow.type "extension" the liquid is
 // unbounded, v_e = (x, -r/2), and epsilon is mu e a/G. Derivation: paper-notes/equations.md. Throws
-// NumericsFailure("unresolved") if the membrane's system does not converge.
+// NumericsFailure: "unresolved" if the membrane's system is singular or does not converge, "not-a-number" if the
+// velocity is none.
 #include "case.hpp"
 #include "flow_state.hpp"
 #include "layer_potential.hpp"

@@ -150,8 +150,13 @@ private:
                                 }
                               },
                               [&](const Vector &position, Matrix &jacobian) {
-                                jacobian = dynamics_.jacobian(position);
-                                return jacobian.allFinite();
+                                try {
+                                  jacobian = dynamics_.jacobian(position);
+                                  return jacobian.allFinite();
+                                } catch (const NumericsFailure &failure) {
+                                  cause_.emplace(failure);
+                                  return false;
+                                }
                               }};
     for (;;) {
       dynamics_.forget();

@@ -1,5 +1,6 @@
 // The flow around given shapes against exact solutions: the empty pore, drops and spheres.
 #include "dynamics.hpp"
+#include "failure.hpp"
 #include "flow_system.hpp"
 #include "observables.hpp"
 #include "resolution.hpp"
@@ -236,6 +237,44 @@ BOOST_AUTO_TEST_CASE(memory_changes_nothing) {
       BOOST_TEST(std::abs(reciprocal - system.reciprocal_pressure_drop(shape, load, state.velocity, none)) <
                  1e-6);
     }
+  }
+}
+
+// A kept inverse that is no use costs time only; what has no solution is a failure, whatever it comes from.
+BOOST_AUTO_TEST_CASE(what_cannot_be_solved_is_a_failure) {
+  const MeridianBasis basis = spectral_basis(24);
+  const Eigen::Index n = basis.size();
+  const Vector position = sphere(basis, 0.8, 0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Vector load(2 * n);
+  load << (2 * basis.nodes.array()).cos(), basis.nodes.array().sin();
+  for (const double lambda : {1.0, 5.0}) {
+    Case physics = unbounded_case();
+    physics.flow.viscosity_ratio = lambda;
+    const FlowSystem system(physics, basis, {});
+    const auto shape = system.interact(position);
+    FlowSystem::Memory none;
+    const Vector velocity = system.flow(shape, load, none).velocity;
+    Matrix one_entry = Matrix::Zero(2 * n, 2 * n);
+    one_entry(0, 0) = 1;
+    for (const Matrix &useless : {Matrix(Matrix::Constant(2 * n, 2 * n, nan)), one_entry}) {
+      FlowSystem::Memory memory;
+      memory.velocity.inverse = useless;
+      BOOST_TEST((system.flow(shape, load, memory).velocity - velocity).cwiseAbs().maxCoeff() < 1e-8);
+    }
+    const std::string kind = lambda == 1 ? "not-a-number" : "unresolved";
+    const auto expected = [&](const NumericsFailure &failure) { return failure.kind == kind; };
+    Vector no_load = load;
+    no_load[3] = nan;
+    FlowSystem::Memory memory;
+    BOOST_CHECK_EXCEPTION(system.flow(shape, no_load, memory), NumericsFailure, expected);
+    BOOST_TEST((system.flow(shape, load, memory).velocity - velocity).cwiseAbs().maxCoeff() < 1e-8);
+    Vector broken = position;
+    broken[3] = nan;
+    FlowSystem::Memory empty;
+    BOOST_CHECK_EXCEPTION(system.flow(system.interact(broken), load, empty), NumericsFailure, expected);
+    if (lambda != 1)
+      BOOST_CHECK_EXCEPTION(system.mobility(system.interact(broken), empty), NumericsFailure, expected);
   }
 }
 
