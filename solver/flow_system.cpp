@@ -123,8 +123,7 @@ Matrix inverse_of(const Matrix &system) {
 template <class Residual, class Apply, class Build>
 Vector solve(const Vector &position, double tolerance, FlowSystem::Corrector &corrector,
              const Residual &residual_of, const Apply &apply, const Build &matrix) {
-  constexpr int few = 10;           // corrections, of which a fresh inverse costs some tens
-  constexpr double nothing = 1e-12; // new in an image, but for rounding errors
+  constexpr int few = 10; // corrections, of which a fresh inverse costs some tens
   if (corrector.inverse.size() == 0)
     corrector.inverse = inverse_of(matrix());
   Vector solution = continued(corrector, position);
@@ -142,14 +141,13 @@ Vector solve(const Vector &position, double tolerance, FlowSystem::Corrector &co
         return solution;
       }
       Vector image = apply(direction);
-      const double whole = image.norm();
       for (std::size_t j = 0; j < images.size(); ++j) {
         const double share = images[j].dot(image);
         image -= share * images[j];
         direction -= share * directions[j];
       }
       const double norm = image.norm();
-      if (!(norm > nothing * whole)) // or no number: the inverse is no use
+      if (!(norm > 0)) // or no number: the inverse is no use
         break;
       images.push_back(image / norm);
       directions.push_back(direction / norm);
