@@ -10,6 +10,9 @@ namespace capsule {
 // parachute has one, at its rear; three or more are wrinkles.
 constexpr double dent_angle = 0.15;
 
+// Of x_g, between the rows of a march.
+constexpr double row_spacing = 0.05;
+
 struct SeriesRow {
   double time = 0;
   double x_g = 0;                      // centre of mass
