@@ -1,0 +1,89 @@
+// The equations of motion: both presets move the same capsule alike, and what is no capsule in the pore is said to be none.
+#include "dynamics.hpp"
+#include "failure.hpp"
+#include "observables.hpp"
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+using namespace capsule;
+
+namespace {
+
+Case mouth_case() {
+  Case physics;
+  physics.capsule.radius = 0.8;
+  physics.capsule.start_x = 0.3;
+  physics.membrane.bending_ratio = 1e-2;
+  physics.flow.capillary_number = 0.1;
+  physics.accuracy = 1e-3;
+  return physics;
+}
+
+std::string failure_of(const Case &physics, const std::function<void(Vector &)> &change) {
+  const Dynamics dynamics = make_dynamics(physics);
+  Vector position = dynamics.start;
+  change(position);
+  try {
+    dynamics.flow(position);
+  } catch (const NumericsFailure &failure) {
+    return failure.kind;
+  }
+  return "";
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(dynamics)
+
+// A sphere without load is a drop without surface tension: of the outer liquid it is not felt at all; of a stiffer one,
+// both presets on their own meshes say the same of it.
+BOOST_AUTO_TEST_CASE(presets_agree) {
+  for (const double viscosity_ratio : {1.0, 5.0}) {
+    Case physics = mouth_case();
+    physics.flow.viscosity_ratio = viscosity_ratio;
+    const auto first_row = [&] {
+      const Dynamics dynamics = make_dynamics(physics);
+      const FlowState state = dynamics.report(dynamics.start, true);
+      SeriesRow row = Gauge(physics, dynamics.membrane).row(0, dynamics.start, state.velocity);
+      row.pressure_drop = state.pressure_drop;
+      return row;
+    };
+    const SeriesRow standard = first_row();
+    physics.numerics = Numerics::paper;
+    physics.mesh = {60, 120, 30};
+    const SeriesRow paper = first_row();
+    if (viscosity_ratio == 1) {
+      BOOST_TEST(std::abs(standard.pressure_drop) < 1e-9);
+      BOOST_TEST(std::abs(paper.pressure_drop) < 1e-9);
+    } else {
+      BOOST_TEST(standard.pressure_drop > 1);
+      BOOST_TEST(standard.pressure_drop == paper.pressure_drop, boost::test_tools::tolerance(3e-3));
+    }
+    BOOST_TEST(standard.v_g == paper.v_g, boost::test_tools::tolerance(3e-3));
+    BOOST_TEST(standard.max_radial_velocity == paper.max_radial_velocity, boost::test_tools::tolerance(3e-3));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_capsule_in_the_pore) {
+  const auto to_the_end = [](Vector &position) { position.head(position.size() / 2).array() += 14; };
+  const auto across_the_axis = [](Vector &position) { position[position.size() - 2] = -0.1; };
+  const auto into_the_wall = [](Vector &position) { position.tail(position.size() / 2) *= 1.3; };
+  const auto out_of_numbers = [](Vector &position) { position[0] = NAN; };
+  Case paper = mouth_case();
+  paper.numerics = Numerics::paper;
+  paper.mesh = {60, 120, 30};
+  for (const Case &physics : {mouth_case(), paper}) {
+    BOOST_TEST(failure_of(physics, [](Vector &) {}) == "");
+    BOOST_TEST(failure_of(physics, to_the_end) == "exit");
+    BOOST_TEST(failure_of(physics, across_the_axis) == "folded");
+    BOOST_TEST(failure_of(physics, into_the_wall) == "touching");
+    BOOST_TEST(failure_of(physics, out_of_numbers) == "not-a-number");
+  }
+  Case tube = mouth_case();
+  tube.pore.shape = PoreShape::tube;
+  BOOST_TEST(failure_of(tube, [&](Vector &position) {
+               position.head(position.size() / 2).array() -= tube.pore.entrance_distance;
+             }) == "exit");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
