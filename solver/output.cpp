@@ -136,6 +136,11 @@ Json finite_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
+[[noreturn]] void fail_to_use(const fs::path &file, const Json::exception &error) {
+  throw FileError(
+      fmt::format("cannot use '{}': {}; remove it or run with --fresh", file.string(), error.what()));
+}
+
 // Parsed, or nothing if there is no such file.
 std::optional<Json> read_json(const fs::path &file) {
   errno = 0;
@@ -148,8 +153,7 @@ std::optional<Json> read_json(const fs::path &file) {
   try {
     return Json::parse(stream);
   } catch (const Json::exception &error) {
-    throw FileError(
-        fmt::format("cannot use '{}': {}; remove it or run with --fresh", file.string(), error.what()));
+    fail_to_use(file, error);
   }
 }
 
@@ -510,7 +514,7 @@ std::string provenance(const fs::path &directory, const char *entry) {
   try {
     return json ? json->value(entry, "") : "";
   } catch (const Json::exception &error) {
-    throw FileError(fmt::format("cannot use '{}': {}; run with --fresh", file.string(), error.what()));
+    fail_to_use(file, error);
   }
 }
 
@@ -600,8 +604,7 @@ std::optional<SavedRun> read_checkpoint(const fs::path &directory, const std::st
     }
     return saved;
   } catch (const Json::exception &error) {
-    throw FileError(
-        fmt::format("cannot use '{}': {}; remove it or run with --fresh", file.string(), error.what()));
+    fail_to_use(file, error);
   }
 }
 
@@ -649,7 +652,7 @@ Summary read_summary(const fs::path &directory) {
         summary.error_estimate[name] = value;
     return summary;
   } catch (const Json::exception &error) {
-    throw FileError(fmt::format("cannot use '{}': {}; run with --fresh", file.string(), error.what()));
+    fail_to_use(file, error);
   }
 }
 
