@@ -130,7 +130,7 @@ bool study(const std::string &directory, unsigned jobs) {
 
   std::string branches = "sphere,capillary_number,deformation,length,max_stretch,growth_rate,end\n";
   bool skalak_goes_on = true;
-  double skalak_growth = -INFINITY;
+  double skalak_growth = -HUGE_VAL;
   for (const Sphere &sphere : spheres) {
     std::istringstream rows(*text);
     branches += *text++;

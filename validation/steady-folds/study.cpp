@@ -66,7 +66,7 @@ std::string skalak_branch(double dilatation, double radius) {
     const FoldSearch search = find_fold(physics, state, flow_key, highest_flow, 0.25);
     const SteadyPoint &last = search.last;
     const auto nodes = static_cast<int>(state.system->nodes());
-    const std::string row =
+    std::string row =
         fmt::format("{},{},{},{},{:.6f},{},{:.4f},{:.4f},{:.6f}", dilatation, radius, bending_ratio,
                     search.end, last.value, nodes, last.growth_rate, last.row.max_stretch, last.row.min_film);
     if (search.end != "mesh" || finer_mesh(nodes) > finest)
