@@ -8,6 +8,7 @@
 # target table-<id>-<name>. What is computed lies in results/ for all of them.
 # The target ledger writes tables/ledger.csv and .md, the verdict on each claim of the paper; it is part of figures.
 find_program(GNUPLOT gnuplot REQUIRED)
+set(DRAW env LC_ALL=C.UTF-8 ${GNUPLOT}) # elsewhere it complains of letters that it cannot write
 file(READ tables/published.csv PUBLISHED)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS tables/published.csv)
 
@@ -53,11 +54,11 @@ function(add_figures id)
     return()
   endif()
   add_test(NAME figure-${id}
-           COMMAND ${GNUPLOT} -e "case='${id}'; out='${CMAKE_CURRENT_BINARY_DIR}/figures'" figures/style.gp
+           COMMAND ${DRAW} -e "case='${id}'; out='${CMAKE_CURRENT_BINARY_DIR}/figures'" figures/style.gp
            WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
   set_tests_properties(figure-${id} PROPERTIES LABELS figure FIXTURES_REQUIRED results-${id}
                        FAIL_REGULAR_EXPRESSION "warning;undefined;cannot")
-  add_custom_target(figure-${id} COMMAND ${GNUPLOT} -e "case='${id}'; out='figures'" figures/style.gp
+  add_custom_target(figure-${id} COMMAND ${DRAW} -e "case='${id}'; out='figures'" figures/style.gp
     COMMENT "Drawing ${id}" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} VERBATIM)
   add_dependencies(figure-${id} table-${id})
   add_dependencies(figures figure-${id})

@@ -30,10 +30,10 @@ add_executable(capsule IMPORTED)
 set_target_properties(capsule PROPERTIES IMPORTED_LOCATION $capsule)
 include(cmake/cases.cmake)
 CMAKE
-cmake -G Ninja -S . -B build >log 2>&1 || { cat log; fail 'cmake'; }
+LC_ALL=C cmake -G Ninja -S . -B build >log 2>&1 || { cat log; fail 'cmake'; }
 mkdir -p figures/deleted-case
 : >figures/deleted-case/fig99.md
-cmake --build build --target figures >log 2>&1 || { cat log; fail 'the target figures'; }
+LC_ALL=C cmake --build build --target figures >log 2>&1 || { cat log; fail 'the target figures'; }
 grep -E '"cases/.*line [0-9]+:|^awk' log && fail 'gnuplot complains'
 
 for figure in fig05a fig07a fig07b fig08; do
