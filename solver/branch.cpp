@@ -123,10 +123,8 @@ private:
     const int more = finer_mesh(nodes());
     if (!may_refine_ || more > most_nodes_of_a_branch)
       return false;
-    const auto finer = system_on_mesh(path_.at(point.parameter), more, state_.system->clustering());
-    const auto moved = [&](const Vector &unknowns) {
-      return moved_to(finer->membrane().basis, state_.system->membrane().basis, unknowns);
-    };
+    const auto finer = system_on_mesh(path_.at(point.parameter), more, {state_.system, point.unknowns});
+    const auto moved = [&](const Vector &unknowns) { return moved_to(*finer, *state_.system, unknowns); };
     const Eigen::Index m = tangent.size() - 1;
     Vector direction(2L * more + 3);
     direction << moved(tangent.head(m)), tangent[m];

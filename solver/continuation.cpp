@@ -1,5 +1,7 @@
 #include "continuation.hpp"
 #include "failure.hpp"
+#include "node_density.hpp"
+#include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 
@@ -9,8 +11,8 @@ namespace {
 constexpr int most_iterations = 25;
 constexpr double position_tolerance = 1e-9;
 constexpr double smallest_step = 1e-6;
-constexpr int many_corrections = 7;
 constexpr double largest_slack = 5e-7;
+constexpr double poorly_resolved = 1e-6; // by the measure of node_density.hpp
 
 [[noreturn]] void no_convergence() {
   throw NumericsFailure("unresolved", "Newton's method does not converge",
@@ -20,6 +22,13 @@ constexpr double largest_slack = 5e-7;
 // Whether corrections of these lengths, one after the other, lead anywhere.
 bool contracts(int iteration, double before, double now) {
   return std::isfinite(now) && (iteration < 2 || now < 0.7 * before);
+}
+
+// The first guess bends with the branch: what it misses, and with it the contraction of Newton's method, is of
+// third order in the step.
+double next_step(double contraction) {
+  constexpr double intended = 0.25;
+  return contraction == 0 ? 1.4 : std::clamp(std::cbrt(intended / contraction), 0.5, 2.0);
 }
 
 } // namespace
@@ -103,7 +112,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
   const Vector way = step * tangent + step * step / 2 * curvature;
   BranchPoint now{from.unknowns + way.head(m), from.parameter + way[m]};
   Vector slope;
-  double before = 1;
+  double before = 1, contraction = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     system_->take(path_(now.parameter));
     system_->fit_tube(now.unknowns);
@@ -121,6 +130,11 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     const double length = std::sqrt(weighted(change, change));
     if (!contracts(iteration, before, length) || system_->admissible_step(now.unknowns, change.head(m)) < 1)
       no_convergence();
+    // From a matrix that is not quite the derivative corrections shrink by some part, however short the step.
+    if (iteration == 1)
+      contraction = length / before;
+    else if (iteration == 2)
+      contraction = std::max(contraction - length / before, 1e-3);
     before = length;
     now.unknowns += change.head(m);
     now.parameter += change[m];
@@ -132,7 +146,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
       right[m] = 1;
       Vector direction = factors.solve(right);
       direction /= std::sqrt(weighted(direction, direction));
-      return {now, direction, iteration + 1};
+      return {now, direction, contraction};
     }
   }
   no_convergence();
@@ -165,11 +179,7 @@ void Branch::advance() {
         tangent_ = next.tangent;
         trend_before_ = trend_;
         trend_ = point_.parameter < before_.parameter ? -1 : 1;
-        corrections_ = next.iterations;
-        if (corrections_ <= 4)
-          step_ = std::min(1.7 * step_, steps_.largest);
-        else if (corrections_ >= many_corrections)
-          step_ /= 1.5;
+        step_ = std::min(next_step(next.contraction) * step_, steps_.largest);
         return;
       }
     } catch (const NumericsFailure &) {
@@ -189,9 +199,16 @@ BranchPoint Branch::at_parameter(double parameter) const {
   return {solve_steady(*system_, guess, position_tolerance), parameter};
 }
 
+double Branch::plain_step() const {
+  const auto displacement = tangent_.head(2 * system_->nodes());
+  return step_ * std::hypot(displacement.norm() / std::sqrt(static_cast<double>(system_->nodes())),
+                            tangent_[tangent_.size() - 1]);
+}
+
 bool Branch::wants_a_finer_mesh() const {
-  return corrections_ >= many_corrections ||
-         std::abs(point_.unknowns[point_.unknowns.size() - 1]) > largest_slack;
+  const Vector &u = point_.unknowns;
+  return std::abs(u[u.size() - 1]) > largest_slack ||
+         unresolved_part(system_->membrane().basis, u.head(2 * system_->nodes())) > poorly_resolved;
 }
 
 bool Branch::turned() const {

@@ -35,6 +35,8 @@ public:
   static Vector upwards(const SteadySystem &system);
 
   const BranchPoint &point() const { return point_; }
+  // Length of the next step as Steps::first has it, without a weight.
+  double plain_step() const;
   // The direction in which the branch goes on.
   const Vector &tangent() const { return tangent_; }
   // The same of the point before.
@@ -43,8 +45,8 @@ public:
 
   // To the next point. Throws NumericsFailure when the smallest step fails; the branch stays where it was.
   void advance();
-  // Whether the last point is poorly resolved: its slack, which is the error of discretisation, is large, or
-  // corrections converged slowly, because the exact derivative is not that of the discrete equations any more.
+  // Whether the last point is poorly resolved: then the exact derivative is not that of the discrete equations any
+  // more, and Newton's method soon fails.
   bool wants_a_finer_mesh() const;
   // The steady state between the last two points at a parameter between theirs.
   BranchPoint at_parameter(double parameter) const;
@@ -61,7 +63,7 @@ private:
   struct Corrected {
     BranchPoint point;
     Vector tangent;
-    int iterations = 0;
+    double contraction = 0; // of the second correction to the first, 0 if there was one only
   };
   Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
                     const Vector &curvature) const;
@@ -78,7 +80,7 @@ private:
   Vector tangent_, tangent_before_;
   Steps steps_;
   double step_;
-  int points_ = 1, corrections_ = 0;
+  int points_ = 1;
   int trend_, trend_before_ = 0;
   double weight_ = 1; // of displacements
 };

@@ -161,14 +161,19 @@ Vector solve(const Vector &position, double tolerance, FlowSystem::Corrector &co
 
 } // namespace
 
+Vector even_membrane_edges(const MeridianBasis &basis, double largest_panel) {
+  return graded_edges(0, pi, 0.75 * basis.nodes[0], largest_panel, Graded::both);
+}
+
 FlowSystem::FlowSystem(const Case &physics, const MeridianBasis &basis, const FlowResolution &resolution)
     : capillary_number_(physics.flow.capillary_number), viscosity_ratio_(physics.flow.viscosity_ratio),
       type_(physics.flow.type), pore_(physics.pore.shape), resolution_(resolution), basis_(basis),
       slope_even_(basis.even(basis.nodes, 1)), slope_odd_(basis.odd(basis.nodes, 1)),
       near_(resolution.membrane_panel_points, resolution.near_tolerance),
       exit_near_(exit_points, resolution.near_tolerance) {
-  const double first_node = basis.nodes[0];
-  panels_ = make_panels(graded_edges(0, pi, 0.75 * first_node, resolution.membrane_panel, Graded::both),
+  panels_ = make_panels(resolution.membrane_edges.size() > 0
+                            ? resolution.membrane_edges
+                            : even_membrane_edges(basis, resolution.membrane_panel),
                         resolution.membrane_panel_points);
   self_ = make_self_rule(panels_, basis.nodes);
   even_bend_ = bend(self_, [&](const Vector &zeta) { return basis.even(zeta, 2); });

@@ -27,6 +27,7 @@ namespace capsule {
 struct FlowResolution {
   int membrane_panel_points = 12;
   double membrane_panel = 0.25; // largest panel in zeta
+  Vector membrane_edges;        // of the panels in zeta, where they are not to follow from that
   int wall_panel_points = 12;
   double wall_panel = 0.75; // largest panel in the tube
   // Of a tube without a mouth: how far the panels are as short as that on both sides of its middle, where a
@@ -36,6 +37,9 @@ struct FlowResolution {
   double near_tolerance = 1e-8;    // of near panels
   double solver_tolerance = 1e-10; // of the velocities that lambda != 1 leaves to an iteration, relative
 };
+
+// The membrane's panels without regard to its shape: as long as allowed, shorter at the poles.
+Vector even_membrane_edges(const MeridianBasis &basis, double largest_panel);
 
 class FlowSystem {
 public:

@@ -1,6 +1,7 @@
 #include "steady_state.hpp"
 #include "case_keys.hpp"
 #include "failure.hpp"
+#include "node_density.hpp"
 #include "quadrature.hpp"
 #include "text.hpp"
 #include <algorithm>
@@ -16,8 +17,10 @@ namespace {
 
 constexpr double position_tolerance = 1e-9;
 constexpr double mesh_growth = 1.35;
+constexpr int first_nodes = 48;
 constexpr int most_nodes = 420;
 constexpr double largest_stretch = 4; // as in a march: beyond, the membrane is said to run away
+constexpr double large_stretch = 2;   // so much behind a fold tells of that, too
 
 constexpr const char *size_key = "capsule.radius";
 constexpr const char *shape_key = "capsule.aspect_ratio";
@@ -41,34 +44,20 @@ void listen(const Control &control) {
     throw Interrupted{};
 }
 
-// Sharper curves want more nodes: the rim of a flat spheroid, the tips of a long one.
-double sharpness(const Case &physics) {
-  const double aspect = physics.capsule.aspect_ratio;
-  return std::sqrt(std::max(aspect, 1 / aspect));
-}
-
-int first_nodes(const Case &physics) {
-  const int nodes = static_cast<int>(std::lround(64 * sharpness(physics)));
-  return physics.mesh.membrane > 0 ? std::min(nodes, physics.mesh.membrane) : nodes;
-}
-
-Resolution resolution_of(const Case &physics, int nodes, double clustering) {
+Resolution resolution_of(const Case &physics, int nodes) {
   Case on_nodes = physics;
   on_nodes.mesh.membrane = nodes;
   Resolution resolution = choose_resolution(on_nodes);
-  resolution.clustering = clustering;
   // Newton's method needs a residual that is smooth where a panel becomes a near one.
   resolution.flow.near_tolerance = std::min(1e-9, resolution.flow.near_tolerance);
-  resolution.flow.wall_panel *= std::min(1.0, 80 * sharpness(physics) / nodes);
+  resolution.flow.wall_panel *= std::min(1.0, 80.0 / nodes);
   return resolution;
 }
 
-// The first mesh for a case on the way to another. A neo-Hookean front, which may stretch without bound, gives no
-// nodes to the rear.
-std::shared_ptr<SteadySystem> first_system(const Case &physics, const Case &target) {
-  const bool strong_front = target.membrane.law == LawName::skalak;
-  return system_on_mesh(physics, first_nodes(target),
-                        strong_front ? choose_resolution(target).clustering : 0);
+// The first mesh, for shapes with no folds yet.
+std::shared_ptr<SteadySystem> first_system(const Case &physics) {
+  const int nodes = physics.mesh.membrane > 0 ? std::min(first_nodes, physics.mesh.membrane) : first_nodes;
+  return system_on_mesh(physics, spectral_basis(nodes).nodes);
 }
 
 } // namespace
@@ -96,11 +85,9 @@ std::string KeyPath::text(double part) const {
   return fmt::format("{} = {:.6g}", key_, value(part));
 }
 
-Vector moved_to(const MeridianBasis &to, const MeridianBasis &from, const Vector &unknowns) {
-  const Eigen::Index n = from.size();
-  const Eigen::Index m = to.size();
-  Vector moved(2 * m + 2);
-  moved << from.even(to.nodes, 0) * unknowns.head(n), from.odd(to.nodes, 0) * unknowns.segment(n, n),
+Vector moved_to(const SteadySystem &to, const SteadySystem &from, const Vector &unknowns) {
+  Vector moved(2 * to.nodes() + 2);
+  moved << at_angles(to.membrane().node_angle, from.membrane(), unknowns.head(2 * from.nodes())),
       unknowns.tail(2);
   return moved;
 }
@@ -109,16 +96,29 @@ int finer_mesh(int nodes) {
   return static_cast<int>(std::ceil(mesh_growth * nodes));
 }
 
-std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, double clustering) {
-  return std::make_shared<SteadySystem>(physics, resolution_of(physics, nodes, clustering));
+std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, const Vector &node_angle) {
+  return std::make_shared<SteadySystem>(physics, resolution_of(physics, static_cast<int>(node_angle.size())),
+                                        node_angle);
+}
+
+std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, const SteadyState &state) {
+  constexpr double most_turning = 0.5; // of the tangent in a panel: in a fold kernels vary with it
+  const Membrane &membrane = state.system->membrane();
+  const Vector position = state.unknowns.head(2 * state.system->nodes());
+  const Vector angles = suitable_angles(membrane, position, nodes);
+  const MeridianBasis basis = spectral_basis(nodes);
+  Resolution resolution = resolution_of(physics, nodes);
+  resolution.flow.membrane_edges =
+      halved_edges(basis, at_angles(angles, membrane, position),
+                   even_membrane_edges(basis, resolution.flow.membrane_panel), most_turning);
+  return std::make_shared<SteadySystem>(physics, resolution, angles);
 }
 
 namespace {
 
 SteadyState straight_to_mesh(const Case &physics, int nodes, const SteadyState &state) {
-  SteadyState moved{system_on_mesh(physics, nodes, state.system->clustering()), {}};
-  const Vector guess =
-      moved_to(moved.system->membrane().basis, state.system->membrane().basis, state.unknowns);
+  SteadyState moved{system_on_mesh(physics, nodes, state), {}};
+  const Vector guess = moved_to(*moved.system, *state.system, state.unknowns);
   moved.unknowns = solve_steady(*moved.system, guess, position_tolerance);
   return moved;
 }
@@ -174,24 +174,25 @@ public:
     number(bending_key, now_) = std::max(stiff_bending, physics.membrane.bending_ratio);
     if (physics.pore.shape != PoreShape::none)
       number(size_key, now_) = std::min(small_radius, physics.capsule.radius);
-    state_.system = first_system(now_, target_);
+    state_.system = first_system(now_);
     state_.unknowns = solve_steady(*state_.system, state_.system->undeformed(), position_tolerance);
   }
 
   void go(const char *key, double to) {
     const KeyPath leg(key, now_, to);
-    double part = leg.needed() ? 0 : 1;
-    while (part < 1) {
-      const double from = part;
+    place_ = {
+        .part = leg.needed() ? 0.0 : 1.0, .direction = Branch::upwards(*state_.system), .turned_at = ""};
+    while (place_.part < 1) {
+      bool arrived = false;
       try {
-        part = follow(leg, from);
+        arrived = follow(leg);
       } catch (const NumericsFailure &failure) {
         if (failure.kind == "fold" || !can_refine())
           throw;
-        part = reached_;
       }
-      if (part < 1)
-        refine_at(leg.at(part));
+      if (arrived)
+        break;
+      refine_at(leg.at(place_.part));
     }
     now_ = leg.at(1);
   }
@@ -203,52 +204,69 @@ private:
   bool can_refine() const {
     return next_mesh() <= (target_.mesh.membrane > 0 ? target_.mesh.membrane : most_nodes);
   }
-  void refine_at(const Case &physics) { state_ = on_mesh(physics, next_mesh(), state_); }
 
-  // Follows the branch, through folds if it comes to that, from one part of the leg to its end or to where a
-  // finer mesh is called for. What was reached stays in state_ and reached_ when it fails.
-  double follow(const KeyPath &leg, double from) {
-    constexpr Branch::Steps steps{.first = 0.2, .largest = 0.7, .tolerance = 1e-4};
+  // To a guess on a finer mesh, from which the branch goes on as it did.
+  void refine_at(const Case &physics) {
+    const SteadyState coarse = state_;
+    state_.system = system_on_mesh(physics, next_mesh(), coarse);
+    state_.unknowns = moved_to(*state_.system, *coarse.system, coarse.unknowns);
+    const Eigen::Index m = place_.direction.size() - 1;
+    Vector direction(state_.unknowns.size() + 1);
+    direction << moved_to(*state_.system, *coarse.system, place_.direction.head(m)), place_.direction[m];
+    place_.direction = direction;
+  }
+
+  // Follows the branch, through folds if it comes to that, to its end (true) or to where a finer mesh is called for.
+  // What was reached stays in state_ and place_ when it fails.
+  bool follow(const KeyPath &leg) {
+    const Branch::Steps steps{.first = place_.first_step, .largest = 0.7, .tolerance = 1e-6};
     constexpr int most_steps = 200;
+    constexpr double first_part = -1; // as far as a branch that has turned is followed
     Branch branch(
-        *state_.system, [&](double part) { return leg.at(part); }, {state_.unknowns, from},
-        Branch::upwards(*state_.system), steps);
-    std::string turned_at;
+        *state_.system, [&](double part) { return leg.at(part); }, {state_.unknowns, place_.part},
+        place_.direction, steps);
     for (int step = 0; step < most_steps; ++step) {
       listen(control_);
       state_.unknowns = branch.point().unknowns;
-      reached_ = branch.point().parameter;
+      place_.part = branch.point().parameter;
+      place_.direction = branch.tangent();
+      place_.first_step = branch.plain_step();
       try {
         branch.advance();
       } catch (const NumericsFailure &failure) {
-        if (!turned_at.empty() && !can_refine())
+        if (!place_.turned_at.empty() && !can_refine())
           break; // behind the fold, as far as this mesh goes
-        throw NumericsFailure(failure.kind, fmt::format("{} beyond {}", failure.what(), leg.text(reached_)),
-                              failure.advice);
+        throw NumericsFailure(
+            failure.kind, fmt::format("{} beyond {}", failure.what(), leg.text(place_.part)), failure.advice);
       }
       const BranchPoint &now = branch.point();
-      if (branch.turned() && turned_at.empty()) {
+      if (branch.turned() && place_.turned_at.empty()) {
         const BranchPoint fold = branch.fold();
         if (fold.parameter >= 1) { // the step has gone past the end of the leg, and back
           state_.unknowns = branch.before_fold(fold, 1).unknowns;
-          return 1;
+          return true;
         }
-        turned_at = leg.text(fold.parameter);
+        place_.turned_at = leg.text(fold.parameter);
       }
-      if (now.parameter < 0 || (!turned_at.empty() && largest_stretch_of(now) > largest_stretch))
+      if (now.parameter < first_part ||
+          (!place_.turned_at.empty() && largest_stretch_of(now) > largest_stretch))
         break;
       if (branch.wants_a_finer_mesh() && can_refine())
-        return reached_;
+        return false;
       if (now.parameter >= 1) {
         state_.unknowns = branch.at_parameter(1).unknowns;
-        return 1;
+        return true;
       }
     }
-    if (turned_at.empty())
+    if (place_.turned_at.empty())
       throw NumericsFailure("unresolved",
-                            fmt::format("the branch does not end beyond {}", leg.text(reached_)),
+                            fmt::format("the branch does not end beyond {}", leg.text(place_.part)),
                             "try a finer mesh.membrane or a larger membrane.bending_ratio");
-    throw NumericsFailure("fold", fmt::format("fold at {}", turned_at), "stay on the near side of it");
+    if (largest_stretch_of(branch.point()) < large_stretch)
+      throw NumericsFailure("unresolved",
+                            fmt::format("the branch turns at {} and does not come back", place_.turned_at),
+                            "begin with a profile of a march (--from)");
+    throw NumericsFailure("fold", fmt::format("fold at {}", place_.turned_at), "stay on the near side of it");
   }
 
   double largest_stretch_of(const BranchPoint &point) const {
@@ -257,10 +275,18 @@ private:
         .stretch_meridional.maxCoeff();
   }
 
+  // On a leg: the part of it, where the branch goes on and how far at first, and the first fold, if any.
+  struct Place {
+    double part = 0;
+    Vector direction;
+    double first_step = 0.2;
+    std::string turned_at;
+  };
+
   Case target_, now_;
   const Control &control_;
-  double reached_ = 0;
   SteadyState state_;
+  Place place_;
 };
 
 // Size, shape and bending stiffness in a flow of given strength: where it is not too weak, a shell gets
@@ -358,10 +384,10 @@ Portrait portray(const SteadyState &state) {
 
 SteadyState find_steady(const Case &physics, const std::optional<Profile> &from, const Control &control) {
   if (from) {
-    SteadyState state{first_system(physics, physics), {}};
-    state.unknowns =
-        solve_steady(*state.system, nodes_on(*from, state.system->membrane()), position_tolerance);
-    return state;
+    const int nodes = std::clamp(static_cast<int>(from->S.size() / 4), first_nodes, most_nodes);
+    SteadyState state{system_on_mesh(physics, spectral_basis(nodes).nodes), {}};
+    state.unknowns = nodes_on(*from, state.system->membrane());
+    return straight_to_mesh(physics, nodes, state);
   }
   std::optional<NumericsFailure> first;
   const double flow = physics.flow.capillary_number;

@@ -56,13 +56,14 @@ struct SteadyRecord {
 };
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
 
-// The equations of a case on a mesh of so many nodes, which are as dense at the rear as resolution.hpp
-// says: shapes go from one mesh to another only if both are clustered alike.
-std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, double clustering);
-// The state on another mesh. Throws NumericsFailure("unresolved").
+// The equations of a case with a node at each of these angles.
+std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, const Vector &node_angle);
+// ... with so many nodes where the shape of a state near by needs them.
+std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, const SteadyState &state);
+// The state on such a mesh. Throws NumericsFailure("unresolved").
 SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state);
-// Unknowns, or changes of them, on other nodes.
-Vector moved_to(const MeridianBasis &to, const MeridianBasis &from, const Vector &unknowns);
+// Unknowns, or changes of them, on another system's nodes.
+Vector moved_to(const SteadySystem &to, const SteadySystem &from, const Vector &unknowns);
 int finer_mesh(int nodes);
 
 // Thrown where the caller asks to stop.

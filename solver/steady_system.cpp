@@ -31,8 +31,9 @@ double tube_for(double tip) {
 
 } // namespace
 
-SteadySystem::SteadySystem(const Case &physics, const Resolution &resolution)
+SteadySystem::SteadySystem(const Case &physics, const Resolution &resolution, const Vector &node_angle)
     : scene_(scene_of(physics)), resolution_(resolution), membrane_(standard_membrane(physics, resolution)) {
+  membrane_.node_angle = node_angle;
   take(physics);
   half_length_ = tube_for(membrane_.reference.head(nodes()).cwiseAbs().maxCoeff());
   build_flow();

@@ -18,8 +18,8 @@ namespace capsule {
 
 class SteadySystem {
 public:
-  // What stays fixed: the scene and the mesh.
-  SteadySystem(const Case &physics, const Resolution &resolution);
+  // What stays fixed: the scene and the mesh, with a node at each of the angles of node_density.hpp.
+  SteadySystem(const Case &physics, const Resolution &resolution, const Vector &node_angle);
 
   // Everything else that the equations hold: capsule, membrane, capillary number.
   void take(const Case &physics);
@@ -27,7 +27,6 @@ public:
   Eigen::Index nodes() const { return membrane_.basis.size(); }
   Vector undeformed() const; // unknowns
   const Membrane &membrane() const { return membrane_; }
-  double clustering() const { return resolution_.clustering; }
   const Case &scene() const { return scene_; } // with the tube that stands for the pore
 
   // Builds a longer tube if the membrane has come too near to its ends.
