@@ -32,7 +32,7 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
   BranchPoint good{start.unknowns, 0};
   Branch branch(*start.system, [&](double part) { return path.at(part); }, good,
                 Branch::upwards(*start.system),
-                {.first = largest_step, .largest = largest_step, .tolerance = 1e-4});
+                {.first = largest_step, .largest = largest_step, .tolerance = 1e-6});
   for (int step = 0; search.end.empty(); ++step) {
     if (step == most_steps) { // short steps: Newton's method has a hard time
       search.end = "mesh";
@@ -45,10 +45,6 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
       break;
     }
     BranchPoint now = branch.point();
-    if (branch.wants_a_finer_mesh()) {
-      search.end = "mesh";
-      break;
-    }
     if (branch.turned()) {
       try {
         now = branch.fold();
@@ -58,6 +54,9 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
       }
       search.end = "fold";
       search.fold = Fold{{}, path.value(good.parameter), {start.system, good.unknowns}};
+    } else if (branch.wants_a_finer_mesh()) {
+      search.end = "mesh";
+      break;
     } else if (now.parameter >= 1) {
       search.end = "end of the path";
       now = branch.at_parameter(1);
