@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cstdio>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <functional>
 #include <sstream>
 #include <thread>
@@ -55,7 +56,7 @@ std::vector<Shown> read_shown(const std::string &text) {
     if (words >> shown.run) {
       words >> t >> shown.time >> x_g >> shown.x_g >> step >> shown.step >> shown.percent >> percent >>
           shown.seconds_left >> s >> left;
-      BOOST_TEST(t + x_g + step + percent + s + left == "tx_gstep%sleft");
+      BOOST_TEST(fmt::format("{} {} {} {} {} {}", t, x_g, step, percent, s, left) == "t x_g step % s left");
       BOOST_TEST(!(words >> left));
     }
     all.push_back(shown);
