@@ -15,7 +15,9 @@ series(run) = results(run)."/series.csv"
 profiles(run) = results(run)."/profiles.csv"
 # One number, NaN where there is none: of a summary.json, of this case's summaries and their error estimates, of
 # tables/published.csv, where the row speaks of this case, or of one whose runs it shows.
-number(text) = text eq "" ? NaN : text + 0
+# gnuplot takes "5e-09" for 5 with something behind it, "5.e-09" for what it is.
+with_point(text) = strstrt(text, "e") && !strstrt(text, ".") ? text[:strstrt(text, "e") - 1].".".text[strstrt(text, "e"):] : text
+number(text) = text eq "" ? NaN : with_point(text) + 0
 entry(directory, key) = number(system("awk -F'[:,]' '/^".key.":/ {printf \"%.16e\", $2}' ".directory."/summary.json 2>/dev/null"))
 result_in(directory, name) = entry(directory, "  \"".name."\"")
 result(run, name) = result_in(results(run), name)

@@ -8,7 +8,7 @@ scheme_title(k) = word("standard@preset Runge-Kutta,@order@4 explicit@Euler pape
 points_of(s, k) = data.word(scenes, s)."-".word(schemes, int(k)).".csv"
 there(s, k) = int(system("cat ".points_of(s, k)." 2>/dev/null | awk 'END {print (NR > 1)}'"))
 present(s) = (there(s, 1) ? "1 " : "").(there(s, 2) ? "2 " : "").(there(s, 3) ? "3 " : "").(there(s, 4) ? "4" : "")
-reference_error(s) = system("awk -F, '$1 == \"".word(scenes, s)."\" {print $2}' ".data."references.csv") + 0
+reference_error(s) = number(system("awk -F, '$1 == \"".word(scenes, s)."\" {print $2}' ".data."references.csv"))
 # The paper's first mesh in the files, and the march of the standard preset that is the fastest at less than a tenth
 # of its error.
 ratios(s) = there(s, 4) ? system("awk -F, 'FNR == 1 {next} FILENAME ~ /paper/ {if ($2 >= 60 && !n) {n = $2; t = $4; e = $6}; next} \

@@ -1,13 +1,13 @@
 directory = "results/".case
 folds = directory."/folds.csv"
 meshes = directory."/meshes.csv"
-field(name) = system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} NR == 2 {print $k[\"".name."\"]}' ".directory."/fit.csv") + 0
+field(name) = number(system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} NR == 2 {print $k[\"".name."\"]}' ".directory."/fit.csv"))
 p = field("curvature_slope"); q = field("nodes_slope"); softest = field("softest")
-at(delta, column) = system(sprintf("awk -F, 'NR > 1 && $1 / %e < 1.01 && $1 / %e > 0.99 {print $%d}' %s", delta, delta, column, folds)) + 0
+at(delta, column) = number(system(sprintf("awk -F, 'NR > 1 && $1 / %e < 1.01 && $1 / %e > 0.99 {print $%d}' %s", delta, delta, column, folds)))
 nodes_at_end = at(softest, 5)
 sizes = system("awk -F, 'NR > 1 && !s[$2]++ {print $2}' ".meshes)
-last_of(nodes) = system("awk -F, 'NR > 1 && $2 == ".nodes." {x = $1} END {print x}' ".meshes) + 0
-worst = system("awk -F, 'NR > 1 && $8 > m {m = $8} END {print m}' ".meshes) + 0
+last_of(nodes) = number(system("awk -F, 'NR > 1 && $2 == ".nodes." {x = $1} END {print x}' ".meshes))
+worst = number(system("awk -F, 'NR > 1 && $8 > m {m = $8} END {print m}' ".meshes))
 delta_label = "bending ratio δ"
 finest = word(sizes, words(sizes))
 

@@ -1,7 +1,7 @@
 directory = "results/".case
 marches = directory."/marches.csv"
 histories = directory."/histories.csv"
-field(file, name) = system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} NR == 2 {print $k[\"".name."\"]}' ".directory."/".file) + 0
+field(file, name) = number(system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} NR == 2 {print $k[\"".name."\"]}' ".directory."/".file))
 exponent = field("fit.csv", "exponent")
 factor = field("fit.csv", "factor")
 offset = field("fit.csv", "offset")
@@ -39,4 +39,4 @@ print sprintf("**Above and below the fold.** Largest stretch against time for %d
     words(values), abs(word(values, 1) - fold)), \
   "Below it capsules come to rest, above they linger, the longer the nearer, and run away; each march ends as unbounded.", \
   sprintf("The paper's pore is too short to tell: at ε_c + %.3f the capsule has %s x_g = %.1f with a stretch of %.2f.", \
-    pore(4, 1) + 0, pore(4, 2), pore(4, 3) + 0, pore(4, 4) + 0)
+    number(pore(4, 1)), pore(4, 2), number(pore(4, 3)), number(pore(4, 4)))

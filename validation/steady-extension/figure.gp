@@ -6,12 +6,12 @@ field(file, first, name) = system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k
 of(sphere, name) = strcol("sphere") eq sphere && strcol("end") ne "fold" ? column(name) : NaN
 stable(sphere, name) = of(sphere, "growth_rate") < 0 ? column(name) : NaN
 unstable(sphere, name) = of(sphere, "growth_rate") >= 0 ? column(name) : NaN
-slope(sphere) = field(slopes, sphere, "theory") + 0
-slope_error = system("awk -F, 'NR > 1 {e = $3 / $4 - 1; if (e < 0) e = -e; if (e > m) m = e} END {print m}' ".slopes) + 0
-last_of(sphere, column) = system("awk -F, '$1 == \"".sphere."\" && $7 != \"fold\" {x = $".column."} END {print x}' ".branches) + 0
+slope(sphere) = number(field(slopes, sphere, "theory"))
+slope_error = number(system("awk -F, 'NR > 1 {e = $3 / $4 - 1; if (e < 0) e = -e; if (e > m) m = e} END {print m}' ".slopes))
+last_of(sphere, column) = number(system("awk -F, '$1 == \"".sphere."\" && $7 != \"fold\" {x = $".column."} END {print x}' ".branches))
 stiff = "0.01"; soft = "0.001"
-fold(delta, name) = field(folds, delta, name) + 0
-growth = system("awk -F, 'NR > 1 {for (i = 4; i <= 5; i++) {v = $i < 0 ? -$i : $i; if (v > m) m = v}} END {print m}' ".folds) + 0
+fold(delta, name) = number(field(folds, delta, name))
+growth = number(system("awk -F, 'NR > 1 {for (i = 4; i <= 5; i++) {v = $i < 0 ? -$i : $i; if (v > m) m = v}} END {print m}' ".folds))
 array sphere[4] = ["neo-hookean", "skalak C=0", "skalak C=1", "skalak C=10"]
 array label[4] = ["neo-Hookean", "Skalak, {/:Italic C} = 0", "Skalak, {/:Italic C} = 1", "Skalak, {/:Italic C} = 10"]
 number_label = "Ca = {/:Italic μea/G}"

@@ -1,10 +1,10 @@
 folds = "results/".case."/folds.csv"
 branches = "results/".case."/skalak.csv"
 of(capsule, name) = strcol("capsule") eq capsule ? column(name) : NaN
-most(file, expression) = system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} {v = ".expression."; if (v < 0) v = -v; if (v > m) m = v} END {print m + 0}' ".file) + 0
+most(file, expression) = number(system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} {v = ".expression."; if (v < 0) v = -v; if (v > m) m = v} END {print m + 0}' ".file))
 # How each of Skalak's branches ends.
 ends_of(dilatation, radius) = system("awk -F, '$1 == ".dilatation." && $2 == ".radius." {printf \"%s at ε = %.3f\", $4 == \"mesh\" ? \"unresolved\" : $4, $5}' ".branches)." (R_eq = ".radius.")"
-fold_at(capsule, radius, name) = system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} $1 == \"".capsule."\" && $4 == ".radius." {print $k[\"".name."\"]}' ".folds) + 0
+fold_at(capsule, radius, name) = number(system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} $1 == \"".capsule."\" && $4 == ".radius." {print $k[\"".name."\"]}' ".folds))
 set datafile missing NaN
 
 eval figure("critical-capillary-number", 14, 9)
@@ -24,6 +24,6 @@ print "**Beyond Figure 19: the critical capillary number.** Above the line a neo
     fold_at("sphere", "0.7", "max_stretch"), fold_at("sphere", "1.1", "max_stretch")), \
   sprintf("Folds on two meshes are at most %.0e apart, growth rates there at most %.0e.", \
     most(folds, "$k[\"capillary_number\"] - $k[\"coarse\"]"), most(folds, "$k[\"growth_rate\"]")), \
-  "Branches of Skalak's law, δ = 0.01, never run away. With C = 10: ".ends_of("10", "1.1").";", \
+  "Branches of Skalak's law, δ = 0.01, never run away. With C = 10: ".ends_of("10", "1.1").",", \
   "with C = 1: ".ends_of("1", "0.9").", ".ends_of("1", "1.1").", where the shell buckles;", \
   "with C = 0: ".ends_of("0", "0.7").", ".ends_of("0", "0.9").", ".ends_of("0", "1.1")."."

@@ -1,6 +1,6 @@
 map(law) = "results/".case."/".law.".csv"
 summary = "results/".case."/summary.csv"
-total(name) = system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} {print $k[\"".name."\"]}' ".summary) + 0
+total(name) = number(system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} {print $k[\"".name."\"]}' ".summary))
 law_names = "neo-hookean skalak"
 law_titles = "neo-Hookean Skalak,@{/:Italic@C}@=@0"
 spaced(text) = system("printf '%s' \"".text."\" | tr @ ' '")

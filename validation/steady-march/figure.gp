@@ -1,12 +1,12 @@
 comparison = "results/".case."/comparison.csv"
 cell(row, column) = system(sprintf("awk -F, 'NR == 1 {for (k = 1; k <= NF; ++k) c[$k] = k} NR == %d {printf \"%%s\", $c[\"%s\"]}' %s", \
   row + 1, column, comparison))
-rows = system("awk 'END {print NR - 1}' ".comparison) + 0
+rows = number(system("awk 'END {print NR - 1}' ".comparison))
 worst = 0; worst_meshes = 0; seconds = 0; march_seconds = 0
 larger(a, b) = a > b ? a : b
 do for [i=1:rows] {
-  worst = larger(worst, larger(cell(i, "v_g_apart") + 0, cell(i, "pressure_drop_apart") + 0))
-  worst_meshes = larger(worst_meshes, cell(i, "meshes_apart") + 0)
+  worst = larger(worst, larger(number(cell(i, "v_g_apart")), number(cell(i, "pressure_drop_apart"))))
+  worst_meshes = larger(worst_meshes, number(cell(i, "meshes_apart")))
   seconds = seconds + cell(i, "seconds"); march_seconds = march_seconds + cell(i, "march_seconds")
 }
 
