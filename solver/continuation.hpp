@@ -63,7 +63,8 @@ private:
   struct Corrected {
     BranchPoint point;
     Vector tangent;
-    double contraction = 0; // of the second correction to the first, 0 if there was one only
+    // Of the second correction to the first, less that of the third to the second; 0 if there was one only.
+    double contraction = 0;
   };
   Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
                     const Vector &curvature) const;

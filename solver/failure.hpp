@@ -16,7 +16,7 @@ struct FileError : std::runtime_error {
 };
 
 // The computation cannot go on (exit code 3). `kind` is one word for scripts: "touching", "folded",
-// "wrinkled", "unresolved", "volume", "step", "not-a-number", "self-contact", "exit", or "unbounded", which
+// "wrinkled", "unresolved", "volume", "step", "not-a-number", "self-contact", "exit", "fold", or "unbounded", which
 // ends a run without being its failure; `advice` says what to try.
 struct NumericsFailure : std::runtime_error {
   std::string kind;

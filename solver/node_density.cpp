@@ -64,8 +64,8 @@ Eigen::ArrayXd inverted(const Value &value, const Slope &slope, const Eigen::Arr
   return result;
 }
 
-// A smooth density of nodes per angle: the coefficients of its logarithm's cosines.
-Vector density_for(const Membrane &membrane, const Vector &position) {
+// Of a smooth density of nodes per angle the logarithm: coefficients of its cosines.
+Vector density_logarithm(const Membrane &membrane, const Vector &position) {
   constexpr double shortest_wave = 24; // about
   constexpr Eigen::Index waves = 64, points = 1024;
   const MeridianBasis &basis = membrane.basis;
@@ -111,20 +111,20 @@ Vector angles_of_density(const Vector &logarithm, const Vector &zeta) {
 } // namespace
 
 Vector suitable_angles(const Membrane &membrane, const Vector &position, int nodes) {
-  const Vector density = density_for(membrane, position);
+  const Vector logarithm = density_logarithm(membrane, position);
   // The shape has no more waves than the nodes that it comes from: fewer tell which density resolves it best.
   const MeridianBasis fewer =
-      spectral_basis(static_cast<int>(0.6 * static_cast<double>(membrane.basis.size())));
+      spectral_basis(std::max(3, static_cast<int>(0.6 * static_cast<double>(membrane.basis.size()))));
   double best = 0, least = std::numeric_limits<double>::infinity();
   for (const double strength : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    const Vector angles = angles_of_density(strength * density, fewer.nodes);
+    const Vector angles = angles_of_density(strength * logarithm, fewer.nodes);
     const double unresolved = unresolved_part(fewer, at_angles(angles, membrane, position));
     if (unresolved < least) {
       least = unresolved;
       best = strength;
     }
   }
-  return angles_of_density(best * density, spectral_basis(nodes).nodes);
+  return angles_of_density(best * logarithm, spectral_basis(nodes).nodes);
 }
 
 Vector at_angles(const Vector &angles, const Membrane &membrane, const Vector &position) {
@@ -141,6 +141,7 @@ Vector at_angles(const Vector &angles, const Membrane &membrane, const Vector &p
 Vector halved_edges(const MeridianBasis &basis, const Vector &position, const Vector &edges,
                     double most_turning) {
   constexpr Eigen::Index points = 2048;
+  constexpr double shortest = 8 * pi / points; // even at a cusp
   const Eigen::Index n = basis.size();
   const Vector zeta = midpoints(points);
   const Eigen::ArrayXd x_1 = basis.even(zeta, 1) * position.head(n),
@@ -157,7 +158,7 @@ Vector halved_edges(const MeridianBasis &basis, const Vector &position, const Ve
   };
   std::vector<double> result{edges[0]};
   const std::function<void(double, double)> add = [&](double from, double to) {
-    if (turning_between(from, to) > most_turning) {
+    if (to - from > shortest && turning_between(from, to) > most_turning) {
       add(from, (from + to) / 2);
       add((from + to) / 2, to);
     } else

@@ -3,7 +3,7 @@
 // which lie at angles of the undeformed spheroid (Membrane::node_angle) that any smooth odd function of zeta may give:
 // shapes keep their parities and the basis its exponential convergence. Here the angles follow from a shape: the nodes
 // are the denser, the larger its first and second derivatives in the angle are, in a fold of the rear above all.
-// Throws nothing.
+// Throws std::invalid_argument for fewer than three nodes.
 #include "membrane.hpp"
 
 namespace capsule {

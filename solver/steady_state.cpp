@@ -20,7 +20,9 @@ constexpr double mesh_growth = 1.35;
 constexpr int first_nodes = 48;
 constexpr int most_nodes = 420;
 constexpr double largest_stretch = 4; // as in a march: beyond, the membrane is said to run away
-constexpr double large_stretch = 2;   // so much behind a fold tells of that, too
+// Where no finer mesh leads on behind a fold, so much tells of that, too, if it has grown since.
+constexpr double large_stretch = 2;
+constexpr double growth_behind_fold = 1.03;
 
 constexpr const char *size_key = "capsule.radius";
 constexpr const char *shape_key = "capsule.aspect_ratio";
@@ -125,7 +127,7 @@ SteadyState straight_to_mesh(const Case &physics, int nodes, const SteadyState &
 
 // Along a branch to its end on the same mesh.
 void follow(const KeyPath &path, SteadyState &state) {
-  constexpr Branch::Steps steps{.first = 0.1, .largest = 0.5, .tolerance = 1e-4};
+  constexpr Branch::Steps steps{.first = 0.1, .largest = 0.5, .tolerance = 1e-6};
   constexpr int most_steps = 60;
   Branch branch(
       *state.system, [&](double part) { return path.at(part); }, {state.unknowns, 0},
@@ -200,10 +202,9 @@ public:
   const SteadyState &state() const { return state_; }
 
 private:
-  int next_mesh() const { return finer_mesh(static_cast<int>(state_.system->nodes())); }
-  bool can_refine() const {
-    return next_mesh() <= (target_.mesh.membrane > 0 ? target_.mesh.membrane : most_nodes);
-  }
+  int most() const { return target_.mesh.membrane > 0 ? target_.mesh.membrane : most_nodes; }
+  int next_mesh() const { return std::min(finer_mesh(static_cast<int>(state_.system->nodes())), most()); }
+  bool can_refine() const { return state_.system->nodes() < most(); }
 
   // To a guess on a finer mesh, from which the branch goes on as it did.
   void refine_at(const Case &physics) {
@@ -239,20 +240,23 @@ private:
         throw NumericsFailure(
             failure.kind, fmt::format("{} beyond {}", failure.what(), leg.text(place_.part)), failure.advice);
       }
+      if (branch.wants_a_finer_mesh() && can_refine())
+        return false;
       const BranchPoint &now = branch.point();
-      if (branch.turned() && place_.turned_at.empty()) {
+      if (branch.turned() && now.parameter < branch.point_before().parameter) {
         const BranchPoint fold = branch.fold();
         if (fold.parameter >= 1) { // the step has gone past the end of the leg, and back
           state_.unknowns = branch.before_fold(fold, 1).unknowns;
           return true;
         }
-        place_.turned_at = leg.text(fold.parameter);
+        if (place_.turned_at.empty() || fold.parameter > place_.farthest)
+          place_.farthest = fold.parameter;
+        place_.turned_at = leg.text(place_.farthest);
+        place_.stretch_at_fold = largest_stretch_of(fold);
       }
       if (now.parameter < first_part ||
           (!place_.turned_at.empty() && largest_stretch_of(now) > largest_stretch))
         break;
-      if (branch.wants_a_finer_mesh() && can_refine())
-        return false;
       if (now.parameter >= 1) {
         state_.unknowns = branch.at_parameter(1).unknowns;
         return true;
@@ -262,10 +266,11 @@ private:
       throw NumericsFailure("unresolved",
                             fmt::format("the branch does not end beyond {}", leg.text(place_.part)),
                             "try a finer mesh.membrane or a larger membrane.bending_ratio");
-    if (largest_stretch_of(branch.point()) < large_stretch)
-      throw NumericsFailure("unresolved",
-                            fmt::format("the branch turns at {} and does not come back", place_.turned_at),
-                            "begin with a profile of a march (--from)");
+    const double stretch = largest_stretch_of(branch.point());
+    if (stretch < large_stretch || stretch < growth_behind_fold * place_.stretch_at_fold)
+      throw NumericsFailure(
+          "unresolved", fmt::format("the branch turns at {} and is not seen to come back", place_.turned_at),
+          "begin with a profile of a march (--from)");
     throw NumericsFailure("fold", fmt::format("fold at {}", place_.turned_at), "stay on the near side of it");
   }
 
@@ -275,12 +280,14 @@ private:
         .stretch_meridional.maxCoeff();
   }
 
-  // On a leg: the part of it, where the branch goes on and how far at first, and the first fold, if any.
+  // On a leg: the part of it, where the branch goes on and how far at first, and the farthest fold, if any; the
+  // stretch at the last one.
   struct Place {
     double part = 0;
     Vector direction;
     double first_step = 0.2;
     std::string turned_at;
+    double farthest = 0, stretch_at_fold = 0;
   };
 
   Case target_, now_;
@@ -417,7 +424,7 @@ RefinedState refine(const Case &physics, const SteadyState &state, const Control
   auto nodes = static_cast<int>(refined.state.system->nodes());
   SeriesRow row = portray(refined.state).row;
   if (given || finer_mesh(nodes) > most_nodes) { // the finest, of which a coarser one tells the error
-    const SeriesRow coarse = portray(on_mesh(physics, 3 * nodes / 4, refined.state)).row;
+    const SeriesRow coarse = portray(on_mesh(physics, std::max(3, 3 * nodes / 4), refined.state)).row;
     refined.error_estimate = differences(row, coarse);
     if (!given && !agree(row, coarse, physics.accuracy))
       refined.warning = poorly_resolved(nodes);

@@ -34,8 +34,8 @@ struct SteadyState {
 
 // A case's steady state on a first mesh; `from` is any shape of the same capsule near to it. Throws
 // NumericsFailure, of the kind "fold" when there is none because the branch of growing capillary numbers
-// turns back: the text says where. A turn of another key on the way to the case is no statement about it,
-// and "unresolved".
+// turns back and the membrane runs away behind the fold: the text says where. Any other turn is no statement about
+// the case, and "unresolved".
 SteadyState find_steady(const Case &physics, const std::optional<Profile> &from, const Control &control);
 
 struct RefinedState {

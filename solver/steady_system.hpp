@@ -18,7 +18,7 @@ namespace capsule {
 
 class SteadySystem {
 public:
-  // What stays fixed: the scene and the mesh, with a node at each of the angles of node_density.hpp.
+  // What stays fixed: the scene and the mesh, with a node at each of these angles (node_density.hpp).
   SteadySystem(const Case &physics, const Resolution &resolution, const Vector &node_angle);
 
   // Everything else that the equations hold: capsule, membrane, capillary number.

@@ -219,6 +219,26 @@ BOOST_AUTO_TEST_CASE(begins_with_a_profile) {
   BOOST_TEST(std::abs(again.last.series.at(0).pressure_drop - first.last.series.at(0).pressure_drop) < 1e-6);
 }
 
+// On a branch that turns and comes back, several times, before the shell is as thin as asked for. Reference: a march to
+// x_g = 30 of a tube that ends at 38 (validation/steady-march has it with seven digits).
+BOOST_AUTO_TEST_CASE(behind_turns_that_are_no_end) {
+  Case physics = tube_case(LawName::skalak, 0.711, 0.0379, 9.1e-5);
+  physics.membrane.dilatation = 1;
+  physics.capsule.aspect_ratio = 1.149;
+  physics.mesh.membrane = 0;
+  const SeriesRow row = steady_row(physics);
+  BOOST_TEST(std::abs(row.v_g - 1.42266) < 1e-5);
+  BOOST_TEST(std::abs(row.pressure_drop - 3.34217) < 2e-5);
+}
+
+// Hardly any nodes: an answer, or a failure that says what it is.
+BOOST_AUTO_TEST_CASE(four_nodes) {
+  Case physics = tube_case(LawName::neo_hookean, 0.2, 1e-3, 2e-2);
+  physics.mesh.membrane = 4;
+  const Outcome outcome = steady(physics, {}, {});
+  BOOST_TEST((outcome.status == Status::steady || !outcome.failure.empty()));
+}
+
 // Beyond the fold of a neo-Hookean capsule there is nothing to find, and the message says where it lies.
 BOOST_AUTO_TEST_CASE(beyond_the_fold) {
   const Outcome outcome = steady(tube_case(LawName::neo_hookean, 0.8, 0.25, 1e-2), {}, {});

@@ -24,6 +24,6 @@ print "**Beyond Figure 19: the critical capillary number.** Above the line a neo
     fold_at("sphere", "0.7", "max_stretch"), fold_at("sphere", "1.1", "max_stretch")), \
   sprintf("Folds on two meshes are at most %.0e apart, growth rates there at most %.0e.", \
     most(folds, "$k[\"capillary_number\"] - $k[\"coarse\"]"), most(folds, "$k[\"growth_rate\"]")), \
-  "Branches of Skalak's law, δ = 0.01, never run away. With C = 10: ".ends_of("10", "1.1").",", \
+  "Branches of Skalak's law, δ = 0.01, are not seen to run away. With C = 10: ".ends_of("10", "1.1").",", \
   "with C = 1: ".ends_of("1", "0.9").", ".ends_of("1", "1.1").", where the shell buckles;", \
   "with C = 0: ".ends_of("0", "0.7").", ".ends_of("0", "0.9").", ".ends_of("0", "1.1")."."
