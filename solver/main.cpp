@@ -308,7 +308,7 @@ int list_keys() {
   std::string section;
   for (const Key &key : keys()) {
     const std::string here = key.name.substr(0, key.name.find('.'));
-    fmt::print("{}{:<27} {}\n{:<26}default: {}; allowed: {}\n", here == section ? "" : "\n", key.name,
+    fmt::print("{}{:<28}{}\n{:<28}default: {}; allowed: {}\n", here == section ? "" : "\n", key.name,
                key.meaning, "", default_text(key), allowed_text(key));
     section = here;
   }
