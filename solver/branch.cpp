@@ -83,7 +83,7 @@ public:
         outcome().message = fmt::format("the branch turns back and does not reach {}", path_.text(1));
       return true;
     }
-    const bool runs_away = largest_stretch() > runaway_stretch;
+    const bool runs_away = state_.system->largest_stretch(branch_->point().unknowns) > runaway_stretch;
     outcome().branch.push_back(look_at(branch_->point(), runs_away));
     if (runs_away) {
       outcome().status = Status::unbounded;
@@ -112,12 +112,6 @@ private:
     state_.unknowns = point.unknowns;
     return record_.look_at(state_, point.parameter, profile);
   }
-  double largest_stretch() const {
-    const Membrane &membrane = state_.system->membrane();
-    return membrane_state(membrane, membrane.at_nodes, branch_->point().unknowns.head(2L * nodes()))
-        .stretch_meridional.maxCoeff();
-  }
-
   // Goes on from a point on a finer mesh; false if there is none that leads on.
   bool refine_mesh(const BranchPoint &point, const Vector &tangent) {
     const int more = finer_mesh(nodes());
@@ -125,12 +119,9 @@ private:
       return false;
     const auto finer = system_on_mesh(path_.at(point.parameter), more, {state_.system, point.unknowns});
     const auto moved = [&](const Vector &unknowns) { return moved_to(*finer, *state_.system, unknowns); };
-    const Eigen::Index m = tangent.size() - 1;
-    Vector direction(2L * more + 3);
-    direction << moved(tangent.head(m)), tangent[m];
     try {
       branch_ = std::make_unique<Branch>(*finer, cases(), BranchPoint{moved(point.unknowns), point.parameter},
-                                         direction, steps);
+                                         moved(tangent), steps);
       state_ = {finer, branch_->point().unknowns};
     } catch (const NumericsFailure &) {
       may_refine_ = false;

@@ -110,7 +110,7 @@ Vector angles_of_density(const Vector &logarithm, const Vector &zeta) {
 
 } // namespace
 
-Vector suitable_angles(const Membrane &membrane, const Vector &position, int nodes) {
+Vector suitable_angles(const Membrane &membrane, const Vector &position, const MeridianBasis &basis) {
   const Vector logarithm = density_logarithm(membrane, position);
   // The shape has no more waves than the nodes that it comes from: fewer tell which density resolves it best.
   const MeridianBasis fewer =
@@ -124,7 +124,7 @@ Vector suitable_angles(const Membrane &membrane, const Vector &position, int nod
       best = strength;
     }
   }
-  return angles_of_density(best * logarithm, spectral_basis(nodes).nodes);
+  return angles_of_density(best * logarithm, basis.nodes);
 }
 
 Vector at_angles(const Vector &angles, const Membrane &membrane, const Vector &position) {

@@ -8,8 +8,8 @@
 
 namespace capsule {
 
-// Angles for so many nodes, that suit a position (2N, of the membrane's own nodes).
-Vector suitable_angles(const Membrane &membrane, const Vector &position, int nodes);
+// Angles for the nodes of a basis, that suit a position (2N, of the membrane's own nodes).
+Vector suitable_angles(const Membrane &membrane, const Vector &position, const MeridianBasis &basis);
 
 // Position, or a change of it, at the material points of other nodes on the same undeformed spheroid.
 Vector at_angles(const Vector &angles, const Membrane &membrane, const Vector &position);

@@ -88,9 +88,10 @@ std::string KeyPath::text(double part) const {
 }
 
 Vector moved_to(const SteadySystem &to, const SteadySystem &from, const Vector &unknowns) {
-  Vector moved(2 * to.nodes() + 2);
+  const Eigen::Index others = unknowns.size() - 2 * from.nodes();
+  Vector moved(2 * to.nodes() + others);
   moved << at_angles(to.membrane().node_angle, from.membrane(), unknowns.head(2 * from.nodes())),
-      unknowns.tail(2);
+      unknowns.tail(others);
   return moved;
 }
 
@@ -107,8 +108,8 @@ std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, con
   constexpr double most_turning = 0.5; // of the tangent in a panel: in a fold kernels vary with it
   const Membrane &membrane = state.system->membrane();
   const Vector position = state.unknowns.head(2 * state.system->nodes());
-  const Vector angles = suitable_angles(membrane, position, nodes);
   const MeridianBasis basis = spectral_basis(nodes);
+  const Vector angles = suitable_angles(membrane, position, basis);
   Resolution resolution = resolution_of(physics, nodes);
   resolution.flow.membrane_edges =
       halved_edges(basis, at_angles(angles, membrane, position),
@@ -182,19 +183,18 @@ public:
 
   void go(const char *key, double to) {
     const KeyPath leg(key, now_, to);
-    place_ = {
-        .part = leg.needed() ? 0.0 : 1.0, .direction = Branch::upwards(*state_.system), .turned_at = ""};
-    while (place_.part < 1) {
-      bool arrived = false;
+    place_ = Place{};
+    place_.direction = Branch::upwards(*state_.system);
+    bool arrived = !leg.needed();
+    while (!arrived) {
       try {
         arrived = follow(leg);
       } catch (const NumericsFailure &failure) {
         if (failure.kind == "fold" || !can_refine())
           throw;
       }
-      if (arrived)
-        break;
-      refine_at(leg.at(place_.part));
+      if (!arrived)
+        refine_at(leg.at(place_.part));
     }
     now_ = leg.at(1);
   }
@@ -211,10 +211,7 @@ private:
     const SteadyState coarse = state_;
     state_.system = system_on_mesh(physics, next_mesh(), coarse);
     state_.unknowns = moved_to(*state_.system, *coarse.system, coarse.unknowns);
-    const Eigen::Index m = place_.direction.size() - 1;
-    Vector direction(state_.unknowns.size() + 1);
-    direction << moved_to(*state_.system, *coarse.system, place_.direction.head(m)), place_.direction[m];
-    place_.direction = direction;
+    place_.direction = moved_to(*state_.system, *coarse.system, place_.direction);
   }
 
   // Follows the branch, through folds if it comes to that, to its end (true) or to where a finer mesh is called for.
@@ -252,10 +249,10 @@ private:
         if (place_.turned_at.empty() || fold.parameter > place_.farthest)
           place_.farthest = fold.parameter;
         place_.turned_at = leg.text(place_.farthest);
-        place_.stretch_at_fold = largest_stretch_of(fold);
+        place_.stretch_at_fold = state_.system->largest_stretch(fold.unknowns);
       }
       if (now.parameter < first_part ||
-          (!place_.turned_at.empty() && largest_stretch_of(now) > largest_stretch))
+          (!place_.turned_at.empty() && state_.system->largest_stretch(now.unknowns) > largest_stretch))
         break;
       if (now.parameter >= 1) {
         state_.unknowns = branch.at_parameter(1).unknowns;
@@ -266,18 +263,12 @@ private:
       throw NumericsFailure("unresolved",
                             fmt::format("the branch does not end beyond {}", leg.text(place_.part)),
                             "try a finer mesh.membrane or a larger membrane.bending_ratio");
-    const double stretch = largest_stretch_of(branch.point());
+    const double stretch = state_.system->largest_stretch(branch.point().unknowns);
     if (stretch < large_stretch || stretch < growth_behind_fold * place_.stretch_at_fold)
       throw NumericsFailure(
           "unresolved", fmt::format("the branch turns at {} and is not seen to come back", place_.turned_at),
           "begin with a profile of a march (--from)");
     throw NumericsFailure("fold", fmt::format("fold at {}", place_.turned_at), "stay on the near side of it");
-  }
-
-  double largest_stretch_of(const BranchPoint &point) const {
-    const Membrane &membrane = state_.system->membrane();
-    return membrane_state(membrane, membrane.at_nodes, point.unknowns.head(2 * state_.system->nodes()))
-        .stretch_meridional.maxCoeff();
   }
 
   // On a leg: the part of it, where the branch goes on and how far at first, and the farthest fold, if any; the

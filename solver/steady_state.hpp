@@ -62,7 +62,8 @@ std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, const Vector &
 std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, const SteadyState &state);
 // The state on such a mesh. Throws NumericsFailure("unresolved").
 SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state);
-// Unknowns, or changes of them, on another system's nodes.
+// Unknowns, or changes of them, on another system's nodes; what follows the positions stays: speed, slack, and of a
+// branch the parameter.
 Vector moved_to(const SteadySystem &to, const SteadySystem &from, const Vector &unknowns);
 int finer_mesh(int nodes);
 

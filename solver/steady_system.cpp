@@ -64,6 +64,11 @@ Vector SteadySystem::undeformed() const {
   return unknowns;
 }
 
+double SteadySystem::largest_stretch(const Vector &unknowns) const {
+  return membrane_state(membrane_, membrane_.at_nodes, unknowns.head(2 * nodes()))
+      .stretch_meridional.maxCoeff();
+}
+
 void SteadySystem::fit_tube(const Vector &unknowns) {
   if (scene_.pore.shape == PoreShape::none)
     return;

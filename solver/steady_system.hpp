@@ -27,7 +27,8 @@ public:
   Eigen::Index nodes() const { return membrane_.basis.size(); }
   Vector undeformed() const; // unknowns
   const Membrane &membrane() const { return membrane_; }
-  const Case &scene() const { return scene_; } // with the tube that stands for the pore
+  double largest_stretch(const Vector &unknowns) const; // meridional, at the nodes
+  const Case &scene() const { return scene_; }          // with the tube that stands for the pore
 
   // Builds a longer tube if the membrane has come too near to its ends.
   void fit_tube(const Vector &unknowns);

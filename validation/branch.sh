@@ -4,6 +4,7 @@
 #   sh validation/branch.sh path/to/capsule
 set -eu
 capsule=$(realpath "$1")
+. "$(dirname "$0")/lib/answers.sh"
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 cd "$place"
@@ -16,19 +17,6 @@ flow.capillary_number = 0.1
 until.x_g = 10
 TOML
 
-fail() {
-  echo "FAILED: $*"
-  cat log
-  exit 1
-}
-# ends CODE ARGUMENT...: the program does, with this code; what it says goes into log
-ends() {
-  expected=$1
-  shift
-  code=0
-  "$capsule" "$@" >log 2>&1 || code=$?
-  [ "$code" -eq "$expected" ] || fail "'$*' ended with $code, not with $expected"
-}
 # near A B DISTANCE WHAT
 near() {
   awk -v a="$1" -v b="$2" -v d="$3" 'BEGIN { exit !(a != "" && b != "" && (a - b)^2 <= d * d) }' || fail "$4: $1 and $2"

@@ -16,12 +16,6 @@ SteadyPoint point_at(const SteadyState &state, const Case &physics, double value
           std::abs(state.unknowns[state.unknowns.size() - 1])};
 }
 
-double largest_stretch(const SteadyState &state) {
-  const Membrane &membrane = state.system->membrane();
-  return membrane_state(membrane, membrane.at_nodes, state.unknowns.head(2 * state.system->nodes()))
-      .stretch_meridional.maxCoeff();
-}
-
 } // namespace
 
 FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::string &key, double to,
@@ -63,7 +57,7 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
     }
     good = now;
     search.state.unknowns = now.unknowns;
-    if (search.end.empty() && largest_stretch(search.state) > runaway_stretch)
+    if (search.end.empty() && search.state.system->largest_stretch(search.state.unknowns) > runaway_stretch)
       search.end = "stretch";
     if (look)
       look(search.state, path.at(now.parameter));

@@ -4,23 +4,11 @@
 #   sh validation/verdicts.sh path/to/capsule
 set -eu
 capsule=$(realpath "$1")
+. "$(dirname "$0")/lib/answers.sh"
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 cd "$place"
 
-fail() {
-  echo "FAILED: $*"
-  cat log
-  exit 1
-}
-# ends CODE ARGUMENT...: the program does, with this code; what it says goes into log
-ends() {
-  expected=$1
-  shift
-  code=0
-  "$capsule" "$@" >log 2>&1 || code=$?
-  [ "$code" -eq "$expected" ] || fail "'$*' ended with $code, not with $expected"
-}
 says() {
   grep -q -e "$1" log || fail "nothing like '$1' is said"
 }

@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_SUITE(node_density)
 BOOST_AUTO_TEST_CASE(a_fold_gets_the_nodes) {
   const Membrane fine = oblate_membrane(300);
   const Vector position = folded(fine.basis.nodes);
-  const Vector angles = suitable_angles(fine, position, 100);
+  const Vector angles = suitable_angles(fine, position, spectral_basis(100));
   BOOST_TEST(angles[0] > 0);
   BOOST_TEST(angles[99] < pi);
   BOOST_TEST((angles.tail(99) - angles.head(99)).minCoeff() > 0);
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(a_fold_gets_the_nodes) {
 // Where nothing turns sharply nothing is won by uneven nodes: an ellipse in its own angle is one wave.
 BOOST_AUTO_TEST_CASE(an_ellipse_keeps_its_nodes) {
   const Membrane membrane = oblate_membrane(40);
-  const Vector angles = suitable_angles(membrane, membrane.reference, 50);
+  const Vector angles = suitable_angles(membrane, membrane.reference, spectral_basis(50));
   BOOST_TEST((angles - spectral_basis(50).nodes).cwiseAbs().maxCoeff() < 1e-12);
 }
 
@@ -65,7 +65,8 @@ BOOST_AUTO_TEST_CASE(an_ellipse_keeps_its_nodes) {
 BOOST_AUTO_TEST_CASE(shapes_move_with_the_membrane) {
   const Membrane even = oblate_membrane(240);
   const Vector position = folded(even.basis.nodes);
-  const Membrane uneven = with_angles(oblate_membrane(220), suitable_angles(even, position, 220));
+  const Membrane uneven =
+      with_angles(oblate_membrane(220), suitable_angles(even, position, spectral_basis(220)));
   const Vector there = at_angles(uneven.node_angle, even, position);
   const Vector back = at_angles(even.node_angle, uneven, there);
   BOOST_TEST((back - position).cwiseAbs().maxCoeff() < 1e-6);
