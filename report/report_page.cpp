@@ -180,7 +180,7 @@ std::string paper_tables() {
   return html;
 }
 
-// The finished runs of all cases, with their results' directories; a run that several cases share counts once.
+// The finished marches of all cases, with their results' directories; a run that several cases share counts once.
 std::vector<fs::path> finished_runs(const std::vector<fs::path> &cases) {
   std::vector<fs::path> runs;
   std::map<std::string, fs::path> known;
@@ -192,9 +192,11 @@ std::vector<fs::path> finished_runs(const std::vector<fs::path> &cases) {
         if (entry.path().filename() == "run.json" && fs::exists(entry.path().parent_path() / "summary.json"))
           found.push_back(entry.path().parent_path());
     std::ranges::sort(found);
-    for (const fs::path &run : found)
-      if (known.emplace(Json::parse(read_file(run / "run.json")).at("identity"), run).second)
+    for (const fs::path &run : found) {
+      const Json origin = Json::parse(read_file(run / "run.json"));
+      if (origin.value("task", "run") == "run" && known.emplace(origin.at("identity"), run).second)
         runs.push_back(run);
+    }
   }
   return runs;
 }

@@ -72,10 +72,15 @@ struct Method {
   March compute = march;
 };
 
+// results/<case> for its motion, results/<case>/steady and results/<case>/branch for its steady states.
+fs::path usual_place(const fs::path &results, const CaseInput &input, const Task &task) {
+  return task.motion ? results / input.name : results / input.name / task.name.substr(0, task.name.find(' '));
+}
+
 RunOptions run_options(const Arguments &arguments, const CaseInput &input, const Task &task = {}) {
   const fs::path results = "results";
   RunOptions options;
-  options.directory = arguments.out.empty() ? results / input.name : fs::path(arguments.out);
+  options.directory = arguments.out.empty() ? usual_place(results, input, task) : fs::path(arguments.out);
   options.pool = arguments.out.empty() ? results / "runs" : fs::path();
   options.task = task;
   options.jobs = arguments.jobs;
@@ -342,7 +347,7 @@ void add_case(CLI::App &command, Arguments &arguments) {
       ->allow_extra_args(false);
   command.add_option("--out", arguments.out,
                      "where results go and are looked for, those of another version too; without it "
-                     "results/<case>, whose runs are shared between "
+                     "results/<case>, with steady/ and branch/ below it, whose runs are shared between "
                      "cases through results/runs");
 }
 

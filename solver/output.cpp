@@ -518,6 +518,29 @@ std::string provenance(const fs::path &directory, const char *entry) {
   }
 }
 
+// What made the results of a directory, and from which input. Earlier versions knew no task but to run.
+std::string task_of(const fs::path &directory) {
+  const std::string made_by = provenance(directory, "task");
+  return made_by.empty() ? Task{}.name : made_by;
+}
+Case input_of(const fs::path &directory, const Task &task) {
+  return read_case(directory / "resolved.toml", {}, task).runs.at(0).physics;
+}
+
+// "flow.viscosity_ratio = 1, no until.time": what the first has in place of the second.
+std::string what_differs(const Case &first, const Case &second) {
+  std::string text;
+  for (const Key &key : keys()) {
+    const auto value = get_value(key, first), instead = get_value(key, second);
+    if (key.name == "title" || key.name == "paper" ||
+        (value ? value_text(*value) : "") == (instead ? value_text(*instead) : ""))
+      continue;
+    text += text.empty() ? "" : ", ";
+    text += value ? fmt::format("{} = {}", key.name, value_text(*value)) : fmt::format("no {}", key.name);
+  }
+  return text;
+}
+
 } // namespace
 
 void make_directories(const fs::path &directory) {
@@ -702,15 +725,30 @@ bool is_finished(const fs::path &directory, const std::string &identity) {
 
 bool is_finished_input(const fs::path &directory, const Case &physics, const Task &task) {
   std::error_code ignored;
-  if (!fs::exists(directory / "summary.json", ignored) || !fs::exists(directory / "resolved.toml", ignored))
-    return false;
-  const std::string made_by = provenance(directory, "task");
-  if ((made_by.empty() ? Task{}.name : made_by) != task.name)
+  if (!fs::exists(directory / "summary.json", ignored) || !fs::exists(directory / "resolved.toml", ignored) ||
+      task_of(directory) != task.name)
     return false;
   try {
-    return same_input(read_case(directory / "resolved.toml", {}, task).runs.at(0).physics, physics, task);
+    return same_input(input_of(directory, task), physics, task);
   } catch (const InputError &) { // an input that is none any more
     return false;
+  }
+}
+
+std::string other_results(const fs::path &directory, const Case &physics, const Task &task) {
+  std::error_code ignored;
+  try {
+    if (!fs::exists(directory / "summary.json", ignored))
+      return fs::exists(directory / "checkpoint.json", ignored) &&
+                     !read_checkpoint(directory, run_identity(physics, task))
+                 ? "an interrupted run"
+                 : "";
+    if (const std::string made_by = task_of(directory); made_by != task.name)
+      return fmt::format("the results of `capsule {}`", made_by);
+    const Case other = input_of(directory, task);
+    return same_input(other, physics, task) ? "" : fmt::format("a run with {}", what_differs(other, physics));
+  } catch (const std::exception &) { // files that are damaged, or of an input that is none any more
+    return "results that cannot be read any more";
   }
 }
 

@@ -59,6 +59,9 @@ Profile read_last_profile(const std::filesystem::path &directory);
 bool is_finished(const std::filesystem::path &directory, const std::string &identity);
 // Whether the directory holds what the task makes of this input, by whatever version of the program.
 bool is_finished_input(const std::filesystem::path &directory, const Case &physics, const Task &task = {});
+// What is in the directory of another input or task, in words for who takes its place: "the results of `capsule
+// steady`", "a run with flow.viscosity_ratio = 1", "an interrupted run"; empty if nothing is. Throws nothing.
+std::string other_results(const std::filesystem::path &directory, const Case &physics, const Task &task = {});
 
 // Takes away the results of whatever run the directory holds, the summary first, and what a killed process
 // left.

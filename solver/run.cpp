@@ -136,6 +136,12 @@ struct Campaign {
     return true;
   }
 
+  // Two inputs, or methods, in one place: the first goes, and that is said.
+  void announce_replacement(const RunInput &run, const fs::path &place) {
+    if (const std::string other = other_results(place, run.physics, options.task); !other.empty())
+      line.print(fmt::format("{}: replaces {}", place.string(), other));
+  }
+
   Course march_in(const fs::path &home, std::size_t index) {
     const RunInput &run = input.runs[index];
     const std::string identity = run_identity(run.physics, options.task);
@@ -194,6 +200,8 @@ struct Campaign {
     if (!wait_for(lock, run))
       return interrupted;
     const bool there = !options.fresh && is_there(run, options);
+    if (!there && home == results[index].directory)
+      announce_replacement(run, home);
     const Course course = there ? found : march_in(home, index);
     if (there)
       remove_checkpoint(home); // of a process that was killed when it was nearly done
@@ -203,6 +211,7 @@ struct Campaign {
     const DirectoryLock place(results[index].directory);
     if (!wait_for(place, run))
       return interrupted;
+    announce_replacement(run, results[index].directory);
     share_results(home, results[index].directory);
     return course;
   }

@@ -72,6 +72,24 @@ for text in 'time,x_g' "$(head -n 1 march/profiles.csv)" "$(head -n 1 march/prof
   grep -q "^error: cannot use 'bad/profiles.csv': " log || fail "nothing is said of '$text'"
 done
 
+# A case's march and its steady states have places of their own; what takes another's place says so.
+ends 0 run case.toml --set until.x_g=-3.5
+home=results/$(basename "$place")
+cp $home/summary.json marched
+ends 0 steady case.toml
+ends 0 branch case.toml --along $key --to 0.101
+cmp marched $home/summary.json || fail 'the march is gone'
+for method in steady branch; do
+  grep -q "\"task\": \"$method" $home/$method/run.json || fail "no $method in $home/$method"
+done
+grep -q replaces log && fail 'something is replaced'
+ends 0 run case.toml --set until.x_g=-3.4
+grep -q "^$home: replaces a run with until.x_g = -3.5\$" log || fail 'a run is replaced without a word'
+ends 0 steady case.toml --out march
+grep -q '^march: replaces the results of `capsule run`$' log || fail 'a march is replaced without a word'
+ends 0 steady case.toml --out march --fresh
+grep -q replaces log && fail 'the same again replaces nothing'
+
 # Of a sweep one run, by its number.
 ends 0 steady case.toml --out swept --set "sweep.\"$key\"=[0.1, 0.15]" --only 2
 near "$(of swept/capillary_number=0.15 v_g)" "$(of end v_g)" 0 'one run of a sweep'

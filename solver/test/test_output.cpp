@@ -282,6 +282,36 @@ BOOST_AUTO_TEST_CASE(results_of_a_run) {
   BOOST_TEST(surface.find("NumberOfPoints=\"96\" NumberOfStrips=\"2\"") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(what_another_input_has_left_is_named) {
+  const TemporaryDirectory directory;
+  const Case physics = pore_case();
+  const Task steady{.motion = false, .name = "steady --from there"};
+  const auto other = [&](const Case &asked, const Task &task = {}) {
+    return other_results(directory.path, asked, task);
+  };
+  BOOST_TEST(other(physics) == "");
+  write_checkpoint(directory.path, run_identity(physics), {random_checkpoint(), {}});
+  BOOST_TEST(other(physics) == "");
+  BOOST_TEST(other(physics, steady) == "an interrupted run");
+  write_results(directory.path, physics, outcome_with(random_checkpoint()), {});
+  BOOST_TEST(other(physics) == "");
+  BOOST_TEST(other(physics, steady) == "the results of `capsule run`");
+  Case changed = physics;
+  changed.title = "other words";
+  BOOST_TEST(other(changed) == "");
+  changed.flow.viscosity_ratio = 5;
+  changed.until = {.x_g = {}, .time = 3};
+  BOOST_TEST(other(changed) == "a run with flow.viscosity_ratio = 1, until.x_g = 11.84, no until.time");
+  write_results(directory.path, physics, outcome_with(random_checkpoint()), {}, steady);
+  BOOST_TEST(other(physics, steady) == "");
+  BOOST_TEST(other(physics) == "the results of `capsule steady --from there`");
+  directory.write("run.json", "{}"); // of an earlier version
+  directory.write("resolved.toml", "capsule.radius = -1");
+  BOOST_TEST(other(physics) == "results that cannot be read any more");
+  directory.write("run.json", "{");
+  BOOST_TEST(other(physics) == "results that cannot be read any more");
+}
+
 BOOST_AUTO_TEST_CASE(what_belongs_to_the_pore_is_null_without_one) {
   const TemporaryDirectory directory;
   Case physics = pore_case();
