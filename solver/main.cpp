@@ -1,5 +1,6 @@
 // The program `capsule`: its commands and exit codes.
 //   0 done; 1 a comparison differs; 2 bad input or usage; 3 the numerics failed; 4 files; 130 interrupted
+#include "atomic_file.hpp"
 #include "branch.hpp"
 #include "build_info.hpp"
 #include "case_keys.hpp"
@@ -12,6 +13,7 @@
 #include "project.hpp"
 #include "run.hpp"
 #include "steady_state.hpp"
+#include "tables.hpp"
 #include "text.hpp"
 #include <CLI/CLI.hpp>
 #include <atomic>

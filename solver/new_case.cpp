@@ -1,7 +1,7 @@
 #include "new_case.hpp"
+#include "atomic_file.hpp"
 #include "case_file.hpp"
 #include "failure.hpp"
-#include "output.hpp"
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>

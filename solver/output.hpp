@@ -1,60 +1,28 @@
 #pragma once
-// What a run leaves on disk. Every file is written beside its place and renamed into it, so that it is there
-// whole or not at all; numbers are written with the fewest digits that read back as the same double.
+// What a run leaves on disk. Every file is there whole or not at all (atomic_file.hpp).
 //   summary.json   the end of the run in one object, and its parameters
 //   series.csv     one row per recorded instant
+//   series_physical.csv   the same in SI units, where the case has physical ones
 //   profiles.csv   one row per point of each profile
 //   membrane.pvd, membrane_0000.vtp ...   the profiles as surfaces of revolution, for ParaView
 //   resolved.toml  the complete input, itself a case file
 //   branch.csv     of a branch of steady states: one row per point, its first column the key that varies
 //   run.json       provenance, and the identity by which a finished run is found again
 //   checkpoint.json   while the run is not finished
-// Every function that touches a file throws FileError with the path and the system's reason.
+// Every function throws FileError with the path and the system's reason.
 #include "case_file.hpp"
+#include "checkpoint.hpp"
 #include "motion.hpp"
+#include "summary.hpp"
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
-#include <string_view>
 
 namespace capsule {
-
-void make_directories(const std::filesystem::path &directory);
-void write_atomically(const std::filesystem::path &file, std::string_view content);
-
-// What a run has cost, over all interruptions.
-struct Effort {
-  std::string started; // UTC
-  double cpu_seconds = 0;
-  double wall_seconds = 0;
-};
-
-struct SavedRun {
-  Checkpoint checkpoint;
-  Effort effort;
-};
-void write_checkpoint(const std::filesystem::path &directory, const std::string &identity,
-                      const SavedRun &saved);
-// Nothing if there is none, or one of another run.
-std::optional<SavedRun> read_checkpoint(const std::filesystem::path &directory, const std::string &identity);
-void remove_checkpoint(const std::filesystem::path &directory);
 
 // All files of a finished run, summary.json last; then the checkpoint goes.
 void write_results(const std::filesystem::path &directory, const Case &physics, const Outcome &outcome,
                    const Effort &effort, const Task &task = {});
 
-// summary.json read back. Quantities that do not apply are absent.
-struct Summary {
-  std::string status;
-  std::string failure;
-  std::string message;
-  std::map<std::string, double> quantities;
-  std::map<std::string, double> error_estimate;
-};
-Summary read_summary(const std::filesystem::path &directory);
-// The last profile of a run's profiles.csv.
-Profile read_last_profile(const std::filesystem::path &directory);
 // Whether the directory holds the finished run of this identity.
 bool is_finished(const std::filesystem::path &directory, const std::string &identity);
 // Whether the directory holds what the task makes of this input, by whatever version of the program.

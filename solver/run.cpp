@@ -1,4 +1,5 @@
 #include "run.hpp"
+#include "atomic_file.hpp"
 #include "failure.hpp"
 #include "progress.hpp"
 #include "resolution.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 // What the studies of validation/ share: runs side by side, and histories compared.
+#include "atomic_file.hpp"
 #include "run.hpp"
 #include <functional>
 #include <map>

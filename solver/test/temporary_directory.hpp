@@ -1,6 +1,7 @@
 #pragma once
 // A directory for the files of one test; removed with everything in it. In memory where there is such a
 // place, because the files of a run are synced to the disk one by one.
+#include "failure.hpp"
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -40,6 +41,21 @@ inline std::string content_of(const std::filesystem::path &file) {
   std::ostringstream content;
   content << std::ifstream(file, std::ios::binary).rdbuf();
   return content.str();
+}
+
+inline std::size_t entries_in(const std::filesystem::path &directory) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(directory), {}));
+}
+
+// What a file error says.
+template <class Action>
+std::string failure_of(const Action &action) {
+  try {
+    action();
+  } catch (const FileError &error) {
+    return error.what();
+  }
+  return "no error";
 }
 
 } // namespace capsule

@@ -105,3 +105,35 @@ BOOST_AUTO_TEST_CASE(profile_of_a_sphere) {
 }
 
 BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_CASE(entry_peak_of_a_pulse) {
+  // Rises to a peak between two rows, dips, and goes on to a higher plateau with ripples below a thousandth.
+  std::vector<SeriesRow> series;
+  const double peak_at = 0.123;
+  for (int i = 0; i <= 300; ++i) {
+    SeriesRow row;
+    row.x_g = -4 + 0.05 * i + 0.004 * std::sin(i); // uneven
+    const double entry = 6 * std::exp(-std::pow((row.x_g - peak_at) / 0.8, 2));
+    const double plateau = 14 / (1 + std::exp(-4 * (row.x_g - 4)));
+    row.pressure_drop = entry + plateau + 0.001 * std::sin(3 * i);
+    series.push_back(row);
+  }
+  const auto peak = entry_peak(series);
+  BOOST_REQUIRE(peak);
+  BOOST_TEST(std::abs(peak->x_g - peak_at) < 0.05);
+  BOOST_TEST(std::abs(peak->pressure_drop - 6) < 0.01);
+
+  // A parabola is met exactly, wherever the rows are.
+  std::vector<SeriesRow> parabola(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    parabola[i].x_g = std::array{0.0, 0.7, 1.1, 2.0}.at(i);
+    parabola[i].pressure_drop = 3 - std::pow(parabola[i].x_g - 0.8, 2);
+  }
+  BOOST_TEST(entry_peak(parabola)->x_g == 0.8, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(entry_peak(parabola)->pressure_drop == 3, boost::test_tools::tolerance(1e-14));
+
+  // Without a fall: the largest value.
+  parabola.resize(2);
+  BOOST_TEST(entry_peak(parabola)->pressure_drop == parabola[1].pressure_drop);
+  BOOST_TEST(!entry_peak({}));
+}

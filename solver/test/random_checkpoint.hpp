@@ -1,0 +1,41 @@
+#pragma once
+// A checkpoint of random numbers of every magnitude, the same each time.
+#include "motion.hpp"
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace capsule {
+
+inline Vector random_vector(Eigen::Index size, std::mt19937 &random) {
+  std::normal_distribution<double> normal(0, 1);
+  return Vector::NullaryExpr(size, [&] { return normal(random); });
+}
+
+inline Checkpoint random_checkpoint() {
+  std::mt19937 random(20);
+  std::normal_distribution<double> normal(0, 1);
+  const auto number = [&] { return normal(random) * std::pow(10, 20 * normal(random)); };
+  Checkpoint checkpoint;
+  checkpoint.time = number();
+  checkpoint.steps = 1234567;
+  checkpoint.position = random_vector(24, random);
+  for (int i = 0; i < 5; ++i)
+    checkpoint.series.push_back({number(), number(), number(), number(), number(), number(), number(),
+                                 number(), number(), number(), number(), number(), number(), number()});
+  checkpoint.series[2].min_film = std::numeric_limits<double>::infinity();
+  checkpoint.series[3].pressure_drop = -0.0;
+  for (const Eigen::Index points : {7, 3}) {
+    Profile profile{number(), number(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+    for (const auto field :
+         {&Profile::S, &Profile::x, &Profile::r, &Profile::stretch_meridional, &Profile::stretch_azimuthal,
+          &Profile::tension_meridional, &Profile::tension_azimuthal, &Profile::moment_meridional,
+          &Profile::moment_azimuthal, &Profile::curvature_meridional, &Profile::curvature_azimuthal,
+          &Profile::velocity_x, &Profile::velocity_r})
+      profile.*field = random_vector(points, random);
+    checkpoint.profiles.push_back(profile);
+  }
+  return checkpoint;
+}
+
+} // namespace capsule

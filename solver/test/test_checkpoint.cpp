@@ -1,0 +1,58 @@
+// Checkpoints come back exactly, and damaged ones are named.
+#include "checkpoint.hpp"
+#include "random_checkpoint.hpp"
+#include "temporary_directory.hpp"
+#include <array>
+#include <bit>
+#include <boost/test/unit_test.hpp>
+#include <cstdint>
+
+using namespace capsule;
+
+namespace {
+
+// The same bits, also of infinities and signed zeros.
+bool same(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(checkpoint_comes_back_bit_by_bit) {
+  const TemporaryDirectory directory;
+  const Checkpoint written = random_checkpoint();
+  write_checkpoint(directory.path, "abc", {written, {"2002-01-01T00:00:00Z", 0.1, 0.3}});
+  BOOST_TEST(!read_checkpoint(directory.path, "other"));
+  const auto saved = read_checkpoint(directory.path, "abc");
+  BOOST_REQUIRE(saved);
+  BOOST_TEST(saved->effort.started == "2002-01-01T00:00:00Z");
+  BOOST_TEST(saved->effort.cpu_seconds == 0.1);
+  BOOST_TEST(saved->effort.wall_seconds == 0.3);
+  const Checkpoint &read = saved->checkpoint;
+  BOOST_TEST(same(read.time, written.time));
+  BOOST_TEST(read.steps == written.steps);
+  BOOST_TEST((read.position.array() == written.position.array()).all());
+  BOOST_REQUIRE(read.series.size() == written.series.size());
+  for (std::size_t i = 0; i < read.series.size(); ++i) {
+    // Every field, also one that is added to the row later, has to come back.
+    using Bits = std::array<std::uint64_t, sizeof(SeriesRow) / sizeof(double)>;
+    BOOST_TEST((std::bit_cast<Bits>(read.series[i]) == std::bit_cast<Bits>(written.series[i])));
+  }
+  BOOST_REQUIRE(read.profiles.size() == written.profiles.size());
+  for (std::size_t i = 0; i < read.profiles.size(); ++i) {
+    BOOST_TEST(same(read.profiles[i].x_g, written.profiles[i].x_g));
+    BOOST_TEST((read.profiles[i].S.array() == written.profiles[i].S.array()).all());
+    BOOST_TEST((read.profiles[i].velocity_r.array() == written.profiles[i].velocity_r.array()).all());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(damaged_checkpoint_is_named) {
+  const TemporaryDirectory directory;
+  BOOST_TEST(!read_checkpoint(directory.path, "abc"));
+  const auto file = directory.write("checkpoint.json", "{\"identity\": \"abc\", \"time\": ");
+  BOOST_TEST(failure_of([&] { read_checkpoint(directory.path, "abc"); }).find(file.string()) !=
+             std::string::npos);
+  directory.write("checkpoint.json", "{\"identity\": \"abc\"}");
+  BOOST_TEST(failure_of([&] { read_checkpoint(directory.path, "abc"); }).find("--fresh") !=
+             std::string::npos);
+}
