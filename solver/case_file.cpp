@@ -253,6 +253,7 @@ std::vector<Assignment::Given> given_values(Reader &reader, std::size_t source, 
       reader.complain(given.place, complaint->message, complaint->hint);
       continue;
     }
+    forget_spellings(scratch);
     const std::string text = value_text(get_value(key, scratch).value_or(given.value));
     if (std::ranges::find(seen, text) != seen.end())
       reader.complain(given.place, fmt::format("{} = {} stands twice in the sweep", key.name, text));
@@ -530,6 +531,7 @@ struct Builder {
   const Selection &selection;
   RunInput run;
   std::vector<std::string> derived; // keys whose value follows from the physical ones
+  bool measured_well = true;        // no physical key was complained of
 
   const Assignment::Given *given(const std::string &name) const {
     for (std::size_t i = 0; i < reader.assignments.size(); ++i)
@@ -574,7 +576,8 @@ struct Builder {
     for (std::size_t i = 0; i < reader.assignments.size(); ++i) {
       const Assignment &assignment = reader.assignments[i];
       const Value &value = assignment.values[selection[i]].value;
-      set_value(*assignment.key, value, run.physics);
+      if (set_value(*assignment.key, value, run.physics))
+        stand_in(*assignment.key);
       if (assignment.sweep) {
         const auto *word = std::get_if<std::string>(&value);
         const bool measured = std::holds_alternative<Measured>(assignment.key->field);
@@ -586,27 +589,45 @@ struct Builder {
     }
   }
 
+  // Any quantity for a physical key that was complained of, so that what follows from it is not missed.
+  void stand_in(const Key &key) {
+    const auto *measured = std::get_if<Measured>(&key.field);
+    if (!measured)
+      return;
+    measured->member.in(run.physics).si = 1;
+    measured_well = false;
+  }
+
   // The dimensionless values that follow from the physical ones; a value that is given too must agree.
   void derive() {
+    for (const std::string &name : reader.meant)
+      if (const Key *key = find_key(name); key != nullptr && !given(name))
+        stand_in(*key);
     if (!has_physical(run.physics))
       return;
-    if (const auto why = physical_complaint(run.physics)) {
-      complain(physical_keys(), *why, "`capsule keys` tells what physical.* means");
-      return;
+    for (const PhysicalComplaint &why : physical_complaints(run.physics)) {
+      std::vector<std::string> places = why.keys;
+      std::ranges::copy(physical_keys(), std::back_inserter(places));
+      complain(places, why.message, "`capsule keys` tells what physical.* means");
+      measured_well = false;
     }
     for (const Derived &value : derived_values(run.physics)) {
-      const Key &key = *find_key(value.key);
-      Case before = run.physics;
-      if (auto complaint = set_value(key, value.value, run.physics))
-        complain({value.from}, complaint->message, complaint->hint);
-      const double stated = number_of(key, before);
-      if (given(value.key) && std::abs(stated / value.value - 1) > 1e-9)
-        complain({value.key},
-                 fmt::format("{} = {}, but {} makes it {}", value.key, number_text(stated), value.from,
-                             number_text(value.value)),
-                 "leave one of them out");
       derived.push_back(value.key);
+      if (measured_well)
+        take_derived(value);
     }
+  }
+
+  void take_derived(const Derived &value) {
+    const Key &key = *find_key(value.key);
+    const double stated = number_of(key, run.physics);
+    if (auto complaint = set_value(key, value.value, run.physics))
+      complain({value.from}, complaint->message, complaint->hint);
+    if (given(value.key) && std::abs(stated / value.value - 1) > 1e-9)
+      complain({value.key},
+               fmt::format("{} = {}, but {} makes it {}", value.key, number_text(stated), value.from,
+                           number_text(value.value)),
+               "leave one of them out");
   }
 
   static std::vector<std::string> physical_keys() {
@@ -831,6 +852,7 @@ std::string what_counts(const Case &physics, const Task &task) {
     if (relevant.pore.shape != PoreShape::none)
       relevant.pore = {.shape = PoreShape::tube};
   }
+  forget_spellings(relevant);
   relevant.title.clear();
   relevant.paper.clear();
   if (physics.numerics == Numerics::paper) // its meshes and its step are given

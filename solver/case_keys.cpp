@@ -124,7 +124,7 @@ std::vector<Key> make_keys() {
       {"physical.young_modulus", "instead of G: surface Young modulus at small strain, E_s",
        measured(CAPSULE_AT(physical.young_modulus), dimension::tension)},
       {"physical.bending_modulus", "D, instead of membrane.bending_ratio",
-       measured(CAPSULE_AT(physical.bending_modulus), dimension::moment)},
+       measured(CAPSULE_AT(physical.bending_modulus), dimension::energy)},
       {"physical.capsule_radius", "of the sphere of the same volume, instead of capsule.radius",
        measured(CAPSULE_AT(physical.capsule_radius), dimension::length)},
       {"physical.internal_viscosity", "instead of flow.viscosity_ratio",
@@ -189,6 +189,10 @@ std::optional<double> as_number(const Value &value) {
   return std::nullopt;
 }
 
+std::string allowed_hint(const Key &key, const std::string &meant) {
+  return (meant.empty() ? "" : fmt::format("did you mean '{}'? ", meant)) + "allowed: " + allowed_text(key);
+}
+
 // set_value for each kind of field.
 struct Setter {
   const Key &key;
@@ -240,8 +244,8 @@ struct Setter {
     if (!text)
       return wrong_type(key, "a number with its unit in quotes", value);
     const auto read = read_quantity(*text, measured.dimension);
-    if (const auto *why = std::get_if<std::string>(&read))
-      return Complaint{key.name + ": " + *why, "allowed: " + allowed_text(key)};
+    if (const auto *none = std::get_if<NoQuantity>(&read))
+      return Complaint{fmt::format("{}: {}", key.name, none->why), allowed_hint(key, none->meant)};
     measured.member.in(physics) = std::get<Quantity>(read);
     return std::nullopt;
   }
@@ -251,10 +255,8 @@ struct Setter {
       return wrong_type(key, "one of " + quoted_list(choice.names), value);
     const auto found = std::ranges::find(choice.names, *text);
     if (found == choice.names.end()) {
-      const std::string near = nearest_word(*text, choice.names);
       return Complaint{fmt::format("unknown {} '{}'", key.name, *text),
-                       (near.empty() ? "" : fmt::format("did you mean '{}'? ", near)) +
-                           "allowed: " + allowed_text(key)};
+                       allowed_hint(key, nearest_word(*text, choice.names))};
     }
     choice.set(physics, static_cast<int>(found - choice.names.begin()));
     return std::nullopt;
@@ -338,6 +340,12 @@ std::optional<Value> get_value(const Key &key, const Case &physics) {
   return std::visit(Getter{key, physics}, key.field);
 }
 
+void forget_spellings(Case &physics) {
+  for (const Key &key : keys())
+    if (const auto *measured = std::get_if<Measured>(&key.field))
+      measured->member.in(physics).written.clear();
+}
+
 std::string value_text(const Value &value) {
   return std::visit(Writer{}, value);
 }
@@ -346,7 +354,7 @@ std::string allowed_text(const Key &key) {
   if (const auto *choice = std::get_if<Choice>(&key.field))
     return quoted_list(choice->names);
   if (const auto *measured = std::get_if<Measured>(&key.field))
-    return fmt::format("a number and a unit of {}, above 0", unit_text(measured->dimension));
+    return examples_text(measured->dimension);
   if (std::holds_alternative<Member<std::string>>(key.field))
     return "any text";
   if (std::holds_alternative<Member<int>>(key.field))

@@ -65,8 +65,10 @@ struct Complaint {
 };
 std::optional<Complaint> set_value(const Key &key, const Value &value, Case &physics);
 
-// No value: not given, chosen automatically. A quantity with its unit is a text, in SI units.
+// No value: not given, chosen automatically. A quantity with its unit is a text, as it was typed.
 std::optional<Value> get_value(const Key &key, const Case &physics);
+// From now on all quantities stand in SI units, the same ones for "5 um" and "5e-3 mm".
+void forget_spellings(Case &physics);
 
 // As TOML writes it.
 std::string value_text(const Value &value);

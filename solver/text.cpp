@@ -1,5 +1,6 @@
 #include "text.hpp"
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <vector>
 
@@ -21,6 +22,26 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
   return d[a.size()][b.size()];
+}
+
+// The character that a text begins with, and the number of its bytes.
+std::pair<char32_t, std::size_t> first_character(std::string_view text) {
+  constexpr std::pair<char32_t, std::size_t> none = {0xfffd, 1};
+  const auto lead = static_cast<unsigned char>(text[0]);
+  const std::size_t length = lead < 0x80 ? 1 : lead < 0xc0 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+  if (length == 0 || lead >= 0xf8 || text.size() < length)
+    return none;
+  char32_t character = length == 1 ? lead : lead & (0x7fu >> length);
+  for (const char c : text.substr(1, length - 1)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80 || byte >= 0xc0)
+      return none;
+    character = character << 6 | (byte & 0x3fu);
+  }
+  // Not longer than needed, no half of a pair of UTF-16, and not beyond the last one.
+  constexpr std::array<char32_t, 5> least = {0, 0, 0x80, 0x800, 0x10000};
+  const bool half = character >= 0xd800 && character < 0xe000;
+  return character < least.at(length) || half || character > 0x10ffff ? none : std::pair(character, length);
 }
 
 } // namespace
@@ -65,6 +86,28 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
     }
   }
   return best;
+}
+
+std::u32string decoded(std::string_view text) {
+  std::u32string characters;
+  while (!text.empty()) {
+    const auto [character, bytes] = first_character(text);
+    characters += character;
+    text.remove_prefix(bytes);
+  }
+  return characters;
+}
+
+std::string encoded(std::u32string_view text) {
+  std::string bytes;
+  for (const char32_t c : text) {
+    const unsigned more = c < 0x80 ? 0 : c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
+    constexpr std::array<char32_t, 4> leads = {0, 0xc0, 0xe0, 0xf0};
+    bytes += static_cast<char>(leads.at(more) | c >> (6 * more));
+    for (unsigned i = more; i-- > 0;)
+      bytes += static_cast<char>(0x80 | (c >> (6 * i) & 0x3f));
+  }
+  return bytes;
 }
 
 std::string_view last_component(std::string_view key) {

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and words as text.
+// Numbers, words and characters as text.
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +20,10 @@ std::string trimmed(const std::string &text);
 // replaced and swapped letters and gives up beyond a third of the word; a word that was cut short counts as
 // one letter off.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
+
+// UTF-8 as characters and back. A byte that belongs to none is U+FFFD, which reads back as that character.
+std::u32string decoded(std::string_view text);
+std::string encoded(std::u32string_view text);
 
 // What follows the last dot of a key: "capillary_number" of "flow.capillary_number".
 std::string_view last_component(std::string_view key);

@@ -86,7 +86,25 @@ echo "$good
 pore.entrance_distance = 1" | bad '4:26: error: .* is out of range'
 echo "$good
 flow.viscosity_ratio = 1e-5" | bad '4:24: error: .* is out of range'
+physical='[physical]
+tube_radius = "5 um"
+viscosity = "1 mPa s"
+flow_rate = "0.1 nL/s"
+shear_modulus = "20 pN/µm"
+capsule_radius = "4 µm"
+[membrane]
+law = "neo-hookean"'
+echo "$physical" | sed 's/5 um/5 umm/' | bad "2:15: error: physical.tube_radius: unknown unit 'umm' in '5 umm'"
+echo "$physical" | sed 's/nL.s/nL/' | bad "4:13: error: physical.flow_rate: '0.1 nL' is a quantity in m3, not a flow rate"
+echo "$physical" | sed '/viscosity/d' | bad "2:15: error: missing key 'physical.viscosity'"
+echo "$physical" | sed 's/tube_radius/tube_radus/' | bad "2:1: error: unknown key 'physical.tube_radus'"
 rm -r bad
+echo "$physical" >physical.toml
+expect 0 '^tube_radius = "5 um"' "$capsule" show physical.toml
+expect 2 "^did you mean '4 um'" "$capsule" show physical.toml --set 'physical.capsule_radius=4 ym'
+expect 2 "^--set:1:25: error: physical.capsule_radius: '4 s' is a time, not a length" \
+  "$capsule" show physical.toml --set 'physical.capsule_radius=4 s'
+rm physical.toml
 
 expect 2 '^none:1:1: error: no such file' "$capsule" run none
 mkdir empty
@@ -112,6 +130,7 @@ expect 2 "^did you mean 'capsule.radius'" "$capsule" branch file.toml --along ca
 expect 2 '^error: --to nan: .*finite number, not nan' "$capsule" branch file.toml --along capsule.radius --to nan
 expect 2 'error: is not a case directory' "$capsule" new fresh --like none
 expect 0 'capillary_number' "$capsule" keys
+expect 0 "a viscosity such as '1 mPa.s'" "$capsule" keys
 expect 0 'Usage' "$capsule" run --help
 expect 0 '^capsule [0-9]' "$capsule" --version
 expect 0 'to be computed' "$capsule" show file.toml

@@ -1,0 +1,146 @@
+#include "units.hpp"
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <utility>
+#include <vector>
+
+using namespace capsule;
+
+namespace {
+
+double si(const std::string &text, const Dimension &of) {
+  const auto read = read_quantity(text, of);
+  BOOST_REQUIRE_MESSAGE(std::holds_alternative<Quantity>(read), text);
+  return std::get<Quantity>(read).si;
+}
+
+NoQuantity refused(const std::string &text, const Dimension &of) {
+  const auto read = read_quantity(text, of);
+  BOOST_REQUIRE_MESSAGE(std::holds_alternative<NoQuantity>(read), text);
+  return std::get<NoQuantity>(read);
+}
+
+} // namespace
+
+// Decimal prefixes are exact: what is read is the double that C++ reads, to the last bit.
+BOOST_AUTO_TEST_CASE(lengths) {
+  for (const char *text :
+       {"5 um", "5um", "5   um", " 5 um ", "5e0 um", "5 \u00b5m", "5 \u03bcm", "5\u00a0\u00b5m", "5 micron",
+        "5e-3 mm", "5000 nm", "5e-6 m", "0.0005 cm", "5 um^1", "5 um2/um"})
+    BOOST_TEST(si(text, dimension::length) == 5e-6, text);
+  BOOST_TEST(si("3.7 um", dimension::length) == 3.7e-6);
+  BOOST_TEST(si("0.1 nm", dimension::length) == 1e-10);
+}
+
+BOOST_AUTO_TEST_CASE(viscosities) {
+  for (const char *text :
+       {"1.2 mPa.s", "1.2 mPa s", "1.2 mPa*s", "1.2 mPa\u00b7s", "1.2 mPa\u22c5s", "1.2 mPa . s", "1.2 cP",
+        "0.012 P", "1.2e-3 kg.m-1.s-1", "1.2e-3 kg/(m s)", "1.2e-3 kg / ( m . s )", "1.2e-3 kg/m/s",
+        "1.2e-3 kg/m.s", "1.2e-3 kg m\u207b\u00b9 s\u207b\u00b9", "1.2e-2 g/(cm.s)", "1.2e-3 N.s/m^2",
+        "1.2 fN.s/um2"})
+    BOOST_TEST(si(text, dimension::viscosity) == 1.2e-3, text);
+}
+
+BOOST_AUTO_TEST_CASE(flow_rates) {
+  for (const char *text : {"0.1 nl/s", "0.1 nL/s", "100 pL/s", "1e5 fL/s", "6 nl/min", "6 nL min^-1",
+                           "360 nl/h", "1e5 um^3/s", "1e5 um3/s", "1e5 \u00b5m\u00b3/s",
+                           "1e5 \u00b5m\u00b3 s\u207b\u00b9", "1e-4 mm^3/s", "1e-13 m3/s", "1e5 um.um.um/s"})
+    BOOST_TEST(si(text, dimension::flow_rate) == 1e-13, text);
+}
+
+BOOST_AUTO_TEST_CASE(pressures_tensions_energies) {
+  for (const char *text :
+       {"100 Pa", "0.1 kPa", "1 mbar", "1e-3 bar", "100 N/m2", "100 pN/um^2", "1000 dyn/cm2"})
+    BOOST_TEST(si(text, dimension::pressure) == 100, text);
+  for (const char *text : {"0.02 mN/m", "20 uN/m", "20 \u00b5N/m", "20 pN/um", "0.02 dyn/cm", "2e-5 N/m",
+                           "0.02 mJ/m2", "0.02 g/s2", "0.02 g.s^-2", "20 Pa.um"})
+    BOOST_TEST(si(text, dimension::tension) == 2e-5, text);
+  for (const char *text : {"0.5 aJ", "0.5 pN.um", "5e-19 N.m", "5e-19 N m", "500 pN.nm"})
+    BOOST_TEST(si(text, dimension::energy) == 5e-19, text);
+}
+
+// "min" is no milli-inch, "mN" no metre-newton, "Pa" no peta-are.
+BOOST_AUTO_TEST_CASE(times_and_velocities) {
+  BOOST_TEST(si("2 min", dimension::time) == 120);
+  BOOST_TEST(si("2 h", dimension::time) == 7200);
+  BOOST_TEST(si("2 ms", dimension::time) == 2e-3);
+  BOOST_TEST(si("6 mm/min", dimension::velocity) == 1e-4);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_quantity_is_refused) {
+  const std::vector<std::pair<const char *, const char *>> refusals = {
+      {"", "'' is no number with a unit"},
+      {"um", "'um' is no number with a unit"},
+      {"5", "'5' has no unit"},
+      {"5 feet", "unknown unit 'feet' in '5 feet'"},
+      {"5 um/", "a unit is missing in '5 um/'"},
+      {"5 um.", "a unit is missing in '5 um.'"},
+      {"5 .um", "a unit is missing in '5 .um'"},
+      {"5 um..um", "a unit is missing in '5 um..um'"},
+      {"5 um/(s", "a unit is missing in '5 um/(s'"},
+      {"5 um)", "a unit is missing in '5 um)'"},
+      {"5 um2x", "unknown unit 'um2x' in '5 um2x'"},
+      {"5 um^", "unknown unit 'um^' in '5 um^'"},
+      {"5 um^10", "unknown unit 'um^10' in '5 um^10'"},
+      {"5 um99999999999", "unknown unit 'um99999999999' in '5 um99999999999'"},
+      {"5 m-2147483648", "unknown unit 'm-2147483648' in '5 m-2147483648'"},
+      {"5 \u00b7 10 um", "a unit is missing in '5 \u00b7 10 um'"},
+      {"5 10 um", "unknown unit '10' in '5 10 um'"},
+      {"5 \u2126", "unknown unit '\u2126' in '5 \u2126'"},
+      {"-5 um", "'-5 um' is not above 0"},
+      {"0 um", "'0 um' is not above 0"},
+      {"nan um", "'nan um' is not above 0"},
+      {"inf um", "'inf um' is beyond what numbers can hold"},
+      {"1e-300 pm9.m-8", "'1e-300 pm9.m-8' is beyond what numbers can hold"},
+      {"1e400 um", "'1e400 um' is no number with a unit"},
+      {"5 s", "'5 s' is a time, not a length"},
+      {"5 um/s", "'5 um/s' is a velocity, not a length"},
+      {"5 um^3", "'5 um^3' is a quantity in m3, not a length"},
+      {"5 um/um", "'5 um/um' is a number without dimension, not a length"},
+      {"5 g", "'5 g' is a quantity in kg, not a length"}};
+  for (const auto &[text, why] : refusals)
+    BOOST_TEST(refused(text, dimension::length).why == why);
+}
+
+BOOST_AUTO_TEST_CASE(what_was_meant) {
+  BOOST_TEST(refused("5 ym", dimension::length).meant == "5 um");
+  BOOST_TEST(refused("5 umm", dimension::length).meant == "5 um");
+  BOOST_TEST(refused("5 microns", dimension::length).meant == "5 micron");
+  BOOST_TEST(refused("1,5 um", dimension::length).meant == "1.5 um");
+  BOOST_TEST(refused("5 feet", dimension::length).meant.empty());
+  BOOST_TEST(refused("5 s", dimension::length).meant.empty());
+  BOOST_TEST(refused("1 mPas", dimension::viscosity).meant == "1 mPa.s");
+  BOOST_TEST(refused("1 mpa.s", dimension::viscosity).meant == "1 mPa.s");
+  BOOST_TEST(refused("2.5e1 fl/sec", dimension::flow_rate).meant == "2.5e1 fl/s");
+  BOOST_TEST(refused("2 pN/ym", dimension::tension).meant == "2 pN/um");
+  BOOST_TEST(refused("2 \u00b5n/m", dimension::tension).meant == "2 uN/m");
+  BOOST_TEST(refused("2 " + std::string(10000, 'x'), dimension::length).meant.empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_quantity_reads_back) {
+  for (const Dimension &of :
+       {dimension::length, dimension::viscosity, dimension::flow_rate, dimension::pressure,
+        dimension::tension, dimension::energy, dimension::velocity, dimension::time, Dimension{1, 1, 1}})
+    for (const double value : {1.0, 2.5e-12, 1.0 / 3})
+      BOOST_TEST(si(quantity_text({value}, of), of) == value);
+  BOOST_TEST(quantity_text({1e-12}, dimension::flow_rate) == "1e-12 m3/s");
+  BOOST_TEST(quantity_text(std::get<Quantity>(read_quantity("0.1 \u00b5l/s", dimension::flow_rate)),
+                           dimension::flow_rate) == "0.1 \u00b5l/s");
+}
+
+// Whatever is suggested is understood, and is what it is said to be.
+BOOST_AUTO_TEST_CASE(examples_are_read) {
+  for (const Dimension &of :
+       {dimension::length, dimension::viscosity, dimension::flow_rate, dimension::pressure,
+        dimension::tension, dimension::energy, dimension::velocity, dimension::time}) {
+    const std::string text = examples_text(of);
+    const std::size_t quote = text.find('\''), open = text.find(" (or ");
+    BOOST_TEST(si(text.substr(quote + 1, text.find('\'', quote + 1) - quote - 1), of) > 0);
+    for (std::size_t at = open + 5; at < text.size(); at = text.find(", ", at) + 2) {
+      const std::size_t end = std::min(text.find(", ", at), text.size() - 1);
+      BOOST_TEST(si("1 " + text.substr(at, end - at), of) > 0);
+      if (end == text.size() - 1)
+        break;
+    }
+  }
+}
