@@ -1,6 +1,7 @@
 #include "reading.hpp"
 #include "case_file.hpp"
 #include "failure.hpp"
+#include "text.hpp"
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -23,10 +24,9 @@ void check_message(const std::string &message) {
   static const std::regex located("(^|\n)[^\n]*:[1-9][0-9]*:[1-9][0-9]*: error: [^\n]+");
   if (!std::regex_search(message, located))
     finding("an error without its place: " + message);
-  for (const char c : message)
-    if (const auto code = static_cast<unsigned char>(c);
-        (code < 0x20 && c != '\n' && c != '\t') || code == 0x7f)
-      finding("a control character in the message: " + message);
+  for (const char32_t c : decoded(message))
+    if (!is_printable(c) && c != U'\n' && c != U'\t')
+      finding("a control character or a byte that is none in the message: " + message);
 }
 
 void check_round_trip(const Case &physics) {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 // A text that was read: a file, or one --set.
 struct Source {
   std::string label; // how messages name it
-  std::vector<std::string> lines;
+  std::vector<std::u32string> lines;
 };
 
 struct Place {
@@ -50,37 +50,41 @@ struct Assignment {
   std::vector<Given> values;
 };
 
-std::vector<std::string> split_lines(const std::string &text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    if (!line.empty() && line.back() == '\r')
-      line.pop_back();
-    lines.push_back(std::move(line));
+// Without the byte order mark that is allowed in front.
+std::u32string characters_of(const std::string &text) {
+  const std::u32string characters = decoded(text);
+  return characters.substr(characters.starts_with(U'\ufeff') ? 1 : 0);
+}
+
+std::vector<std::u32string> split_lines(const std::u32string &text) {
+  std::vector<std::u32string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(U'\n', begin), text.size());
+    const bool carriage_return = end > begin && text[end - 1] == U'\r';
+    lines.push_back(text.substr(begin, end - begin - (carriage_return ? 1 : 0)));
+    begin = end + 1;
   }
   return lines;
 }
 
-// A line of the source fit for any terminal: one column for each character, whatever bytes it holds.
-std::string printable(const std::string &line) {
+// Lines of the source around a place, and a caret below it: one column for each character, whatever the file holds.
+std::string excerpt(const std::u32string &line, const Place &place) {
   constexpr std::size_t longest = 160;
-  std::string shown;
-  for (const char c : line.substr(0, longest)) {
-    const auto code = static_cast<unsigned char>(c);
-    const bool continues_character = code >= 0x80 && code < 0xc0;
-    if (!continues_character)
-      shown += (code >= 0x20 && code < 0x7f) || c == '\t' ? c : '?';
-  }
-  return shown;
+  const std::size_t column = std::min(place.column - 1, line.size());
+  const std::size_t begin = column < longest ? 0 : column - longest / 2;
+  std::u32string shown = line.substr(begin, longest), margin = line.substr(begin, column - begin);
+  for (char32_t &c : shown)
+    c = c == U'\t' || is_printable(c) ? c : U'?';
+  for (char32_t &c : margin)
+    c = c == U'\t' ? U'\t' : U' ';
+  return fmt::format("{:5} | {}\n      | {}^\n", place.line, encoded(shown), encoded(margin));
 }
 
 // What a file's own words may have brought into a message, without commands to the terminal.
 std::string without_controls(const std::string &text) {
   std::string shown;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    shown += code < 0x20 || code == 0x7f ? fmt::format("\\u{:04x}", code) : std::string(1, c);
-  }
+  for (const char32_t c : decoded(text))
+    shown += is_printable(c) ? encoded({&c, 1}) : fmt::format("\\u{:04x}", static_cast<std::uint32_t>(c));
   return shown;
 }
 
@@ -89,13 +93,8 @@ std::string error_text(const Error &error, const std::vector<Source> &sources) {
   const Source &source = sources.at(place.source);
   std::string text = fmt::format("{}:{}:{}: error: {}\n", source.label, place.line, place.column,
                                  without_controls(error.complaint.message));
-  if (place.line <= source.lines.size()) {
-    const std::string line = printable(source.lines[place.line - 1]);
-    std::string margin = line.substr(0, place.column - 1);
-    for (char &c : margin)
-      c = c == '\t' ? '\t' : ' ';
-    text += fmt::format("{:5} | {}\n      | {}^\n", place.line, line, margin);
-  }
+  if (place.line <= source.lines.size())
+    text += excerpt(source.lines[place.line - 1], place);
   if (!error.complaint.hint.empty())
     text += without_controls(error.complaint.hint) + "\n";
   return text;
@@ -114,16 +113,16 @@ struct Reader {
   std::size_t family = 0;
 
   std::size_t add_source(const std::string &label, const std::string &text) {
-    sources.push_back({label, split_lines(text)});
+    sources.push_back({label, split_lines(characters_of(text))});
     return sources.size() - 1;
   }
 
   // The rest of the line.
-  std::string_view text_at(const Place &place) const {
-    const std::vector<std::string> &lines = sources[place.source].lines;
+  std::string text_at(const Place &place) const {
+    const std::vector<std::u32string> &lines = sources[place.source].lines;
     if (place.line > lines.size() || place.column > lines[place.line - 1].size())
       return {};
-    return std::string_view(lines[place.line - 1]).substr(place.column - 1);
+    return encoded(std::u32string_view(lines[place.line - 1]).substr(place.column - 1));
   }
 
   void complain(const Place &place, std::string message, std::string hint = "") {
@@ -150,11 +149,12 @@ Place place_of(std::size_t source, const toml::source_position &position) {
 // Where a key begins as it is written: "flow.type" for its last part too.
 Place key_place(const Reader &reader, std::size_t source, const toml::key &key) {
   Place place = place_of(source, key.source().begin);
-  const std::vector<std::string> &lines = reader.sources[source].lines;
+  const std::vector<std::u32string> &lines = reader.sources[source].lines;
+  constexpr std::u32string_view ends = U" \t{,";
   if (place.line <= lines.size()) {
-    const std::string &line = lines[place.line - 1];
+    const std::u32string &line = lines[place.line - 1];
     while (place.column > 1 && place.column - 2 < line.size() &&
-           std::strchr(" \t{,", line[place.column - 2]) == nullptr)
+           ends.find(line[place.column - 2]) == ends.npos)
       --place.column;
   }
   return place;
@@ -348,55 +348,62 @@ std::variant<std::string, Complaint> read_text(const fs::path &file) {
   return text.str();
 }
 
-bool is_ascii(char c) {
-  return static_cast<unsigned char>(c) < 0x80;
-}
-bool begins_character(char c) {
-  return (static_cast<unsigned char>(c) & 0xc0u) != 0x80;
-}
-
-// The text with one ASCII character for each.
-std::string in_ascii(const std::string &text) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // allowed in front
-  std::string ascii;
-  for (const char c : text.substr(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0))
-    if (begins_character(c))
-      ascii += is_ascii(c) ? c : '?';
-  return ascii;
+bool is_ascii(char32_t c) {
+  return c < 0x80;
 }
 
 // The first character beyond ASCII that begins a line joined to the one before by a backslash; also in a literal
 // string, where a backslash joins nothing.
-std::size_t find_joined(const std::string &text) {
-  constexpr const char *white = " \t\v\f\r\n";
-  for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
+std::size_t find_joined(const std::u32string &text) {
+  constexpr const char32_t *white = U" \t\v\f\r\n";
+  for (std::size_t at = text.find(U'\\'); at != text.npos; at = text.find(U'\\', at + 1)) {
     const std::size_t next = text.find_first_not_of(white, at + 1);
-    if (next != std::string::npos && !is_ascii(text[next]) && text.find('\n', at) < next)
+    if (next != text.npos && !is_ascii(text[next]) && text.find(U'\n', at) < next)
       return next;
   }
-  return std::string::npos;
+  return text.npos;
 }
 
-Place place_of(std::size_t source, std::string_view text, std::size_t byte) {
-  const std::string_view before = text.substr(0, byte);
-  const auto lines = static_cast<std::size_t>(std::ranges::count(before, '\n'));
-  const auto columns = std::ranges::count_if(before.substr(before.rfind('\n') + 1), begins_character);
-  return {source, lines + 1, static_cast<std::size_t>(columns) + 1};
+Place place_of(std::size_t source, std::u32string_view text, std::size_t at) {
+  const std::u32string_view before = text.substr(0, at);
+  const auto lines = static_cast<std::size_t>(std::ranges::count(before, U'\n'));
+  return {source, lines + 1, before.size() - (before.rfind(U'\n') + 1) + 1};
+}
+
+// What toml++ says of a text whose characters beyond ASCII it was given as question marks.
+std::string description_of(const toml::parse_error &error, const Place &place, const std::u32string &text) {
+  std::string description(error.description());
+  const std::vector<std::u32string> lines = split_lines(text);
+  const std::size_t mark = description.rfind("'?'");
+  if (mark != std::string::npos && place.line <= lines.size() && place.column <= lines[place.line - 1].size())
+    description.replace(mark + 1, 1, encoded({&lines[place.line - 1][place.column - 1], 1}));
+  return description;
 }
 
 // The table that a text is, or what is wrong with it. What toml++ 3.3 does is not defined where it asks whether a
 // character beyond ASCII is white space: outside of strings and comments, where it would be an error like the ASCII
 // character in its place, and behind a backslash that joins two lines of a string.
 std::variant<toml::table, Error> parse(std::size_t source, const std::string &text) {
-  if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
-    return Error{place_of(source, text, zero), {"not a text file: byte 0", ""}};
-  if (const std::size_t joined = find_joined(text); joined != std::string::npos)
-    return Error{place_of(source, text, joined), {"a joined line must begin with an ASCII character", ""}};
+  const std::u32string characters = characters_of(text);
+  if (const std::size_t zero = characters.find(U'\0'); zero != characters.npos)
+    return Error{place_of(source, characters, zero), {"not a text file: byte 0", ""}};
+  if (const auto [wrong, unused] = std::ranges::mismatch(text, encoded(decoded(text))); wrong != text.end()) {
+    const std::u32string before = characters_of({text.begin(), wrong});
+    return Error{place_of(source, before, before.size()),
+                 {fmt::format("not UTF-8: byte 0x{:02x}", static_cast<unsigned char>(*wrong)), ""}};
+  }
+  if (const std::size_t joined = find_joined(characters); joined != characters.npos)
+    return Error{place_of(source, characters, joined),
+                 {"a joined line must begin with an ASCII character", ""}};
   try {
-    const toml::table well_formed = toml::parse(std::string_view(in_ascii(text))); // or it throws
+    std::string ascii;
+    for (const char32_t c : characters)
+      ascii += is_ascii(c) ? static_cast<char>(c) : '?';
+    const toml::table well_formed = toml::parse(std::string_view(ascii)); // or it throws
     return toml::parse(std::string_view(text));
   } catch (const toml::parse_error &error) {
-    return Error{place_of(source, error.source().begin), {std::string(error.description()), ""}};
+    const Place place = place_of(source, error.source().begin);
+    return Error{place, {description_of(error, place, characters), ""}};
   }
 }
 

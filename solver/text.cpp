@@ -110,6 +110,21 @@ std::string encoded(std::u32string_view text) {
   return bytes;
 }
 
+bool is_printable(char32_t c) {
+  // Controls; marks and spaces of no width, and what turns the direction of writing; tags.
+  constexpr std::array<std::pair<char32_t, char32_t>, 9> hidden = {{{0, 0x1f},
+                                                                    {0x7f, 0x9f},
+                                                                    {0xad, 0xad},
+                                                                    {0x200b, 0x200f},
+                                                                    {0x2028, 0x202e},
+                                                                    {0x2060, 0x206f},
+                                                                    {0xfeff, 0xfeff},
+                                                                    {0xfff9, 0xfffd},
+                                                                    {0xe0000, 0xe0fff}}};
+  return std::ranges::none_of(hidden,
+                              [c](const auto &range) { return range.first <= c && c <= range.second; });
+}
+
 std::string_view last_component(std::string_view key) {
   return key.substr(key.rfind('.') + 1);
 }

@@ -24,6 +24,8 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
 // UTF-8 as characters and back. A byte that belongs to none is U+FFFD, which reads back as that character.
 std::u32string decoded(std::string_view text);
 std::string encoded(std::u32string_view text);
+// Neither a command to the terminal, nor invisible, nor U+FFFD.
+bool is_printable(char32_t c);
 
 // What follows the last dot of a key: "capillary_number" of "flow.capillary_number".
 std::string_view last_component(std::string_view key);

@@ -6,6 +6,7 @@
 #include "temporary_directory.hpp"
 #include "text.hpp"
 #include <boost/test/unit_test.hpp>
+#include <cstring>
 #include <set>
 #include <unistd.h>
 
@@ -228,6 +229,17 @@ BOOST_AUTO_TEST_CASE(name_of_another_file_of_a_case_directory) {
   BOOST_TEST(read_case(directory.write("elsewhere/mine.toml", sphere)).name == "mine");
 }
 
+BOOST_AUTO_TEST_CASE(characters_as_bytes) {
+  for (const std::u32string text : {U"a\u007f\u0080\u07ff\u0800\ud7ff\ue000\uffff\U00010000\U0010ffff", U""})
+    BOOST_CHECK(decoded(encoded(text)) == text);
+  BOOST_CHECK(decoded("\xc2\xb5\xe6\x97\xa5\xf0\x9f\x98\x80") == U"\u00b5\u65e5\U0001f600");
+  // Cut short, too long for what it says, half of a pair, beyond the last, never a beginning, never alone.
+  for (const char *wrong : {"\xc3", "\xe6\x97", "\xc1\xbf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf",
+                            "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff", "\xf8\x88\x80\x80\x80", "\x80"})
+    BOOST_CHECK(decoded(wrong) == std::u32string(std::strlen(wrong), U'\ufffd'));
+  BOOST_CHECK(decoded("\xe6z") == U"\ufffdz");
+}
+
 BOOST_AUTO_TEST_CASE(numbers_as_text) {
   BOOST_TEST(number_text(1e-5) == "1e-5");
   BOOST_TEST(number_text(-1e22) == "-1e22");
@@ -247,6 +259,23 @@ BOOST_AUTO_TEST_CASE(the_message_in_full) {
                                                  "    9 | capilary_number = 0.09 # twice\n"
                                                  "      | ^\n"
                                                  "did you mean 'capillary_number'?\n");
+}
+
+// The caret stands below the character that is meant, also in a line that is too long to be shown.
+BOOST_AUTO_TEST_CASE(characters_of_the_excerpt) {
+  const TemporaryDirectory directory;
+  const auto excerpt = [&](const std::string &line) {
+    const std::string message = message_of(directory.write("case.toml", line + "\n" + sphere));
+    return message.substr(message.find('\n') + 1);
+  };
+  check_contains(excerpt("title = '\u00b5\u65e5' \u03bc"),
+                 "    1 | title = '\u00b5\u65e5' \u03bc\n      |              ^\n");
+  check_contains(excerpt("paper = '\xc2\x9b\u202e\t' x"),
+                 "    1 | paper = '??\t' x\n      |            \t  ^\n");
+  check_contains(excerpt("pore = {'\u00b5' = 1}"), "    1 | pore = {'\u00b5' = 1}\n      |         ^\n");
+  const std::string longer = excerpt("title = '" + std::string(300, 'a') + "' x");
+  const std::size_t end = longer.find('\n');
+  BOOST_TEST(longer.find('^', end) - end - 1 == longer.find('x'));
 }
 
 BOOST_AUTO_TEST_CASE(unknown_keys) {
@@ -335,9 +364,11 @@ BOOST_AUTO_TEST_CASE(not_toml) {
   check_errors(sphere + "capillary_number = 0.05\n", {"9:"});
   check_errors(sphere + "[flow]\nviscosity_ratio = 2\n", {"9:"});
   check_errors(sphere + "[mesh\n", {"9:"});
-  check_errors("paper = \"a\xff\"\n" + sphere, {"1:"});
+  check_errors("paper = \"\xc3\xa9\xff\"\n" + sphere, {"1:11: error: not UTF-8: byte 0xff"});
+  check_errors("\xef\xbb\xbfpaper = \"\xc3\n" + sphere, {"1:10: error: not UTF-8: byte 0xc3"});
   // What the parser cannot be trusted with.
-  check_errors("r\xc3\xa9 = 1\n" + sphere, {"1:2: error:"});
+  check_errors("r\xc3\xa9 = 1\n" + sphere,
+               {"1:2: error: Error while parsing key-value pair: expected '=', saw '\u00e9'"});
   check_errors("accuracy =-\"\xc3\xa9\n" + sphere, {"1:"});
   check_errors("paper = \"\"\"a \\\n \xc3\xa9\"\"\"\n" + sphere, {"2:2: error: a joined line"});
   check_errors("accuracy = \"\\u001b[2J\"\n" + sphere,
