@@ -11,6 +11,7 @@
 #include "new_case.hpp"
 #include "progress.hpp"
 #include "project.hpp"
+#include "provenance.hpp"
 #include "run.hpp"
 #include "steady_state.hpp"
 #include "tables.hpp"
@@ -197,7 +198,7 @@ int run_steady(const Arguments &arguments) {
   Task task{.motion = false, .name = "steady"};
   if (!arguments.from.empty()) {
     from = read_last_profile(arguments.from);
-    task.name += " --from " + arguments.from;
+    task.name += fmt::format(" --from {} {}", arguments.from, identity_of(arguments.from));
   }
   return run(arguments, {task, [&](const Case &physics, const Checkpoint & /*none is saved*/,
                                    const Control &control) { return steady(physics, from, control); }});

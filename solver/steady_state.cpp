@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -330,6 +331,62 @@ Vector nodes_on(const Profile &profile, const Membrane &membrane) {
   return unknowns;
 }
 
+// From a shape that is too far off for Newton's method, by the way that it takes itself with equal viscosities: implicit
+// steps in time, which get longer as the motion dies away, until they are Newton's.
+Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
+  constexpr int most_steps = 100;
+  constexpr double first_step = 0.1, shortest_step = 1e-5, long_step = 100;
+  constexpr double intended = 0.2, too_much = 0.6; // of the motion, other than by its linearisation
+  const Eigen::Index n2 = 2 * system.nodes();
+  shape.head(n2 / 2).array() -= system.residual(shape)[n2]; // its centre to where the equations want it
+  system.fit_tube(shape);
+  SteadySystem::Linearisation linear = system.linearise(shape);
+  double step = first_step;
+  for (int k = 0; k < most_steps && step > shortest_step; ++k) {
+    listen(control);
+    Matrix implicit = linear.jacobian;
+    implicit.diagonal().head(n2).array() -= 1 / step;
+    const Vector change = implicit.partialPivLu().solve(-linear.residual);
+    double error = std::numeric_limits<double>::infinity();
+    std::optional<SteadySystem::Linearisation> next;
+    if (system.admissible_step(shape, change) == 1)
+      try {
+        system.fit_tube(shape + change);
+        next = system.linearise(shape + change);
+        error = (next->residual - change / step).head(n2).cwiseAbs().maxCoeff() /
+                linear.residual.head(n2).cwiseAbs().maxCoeff();
+      } catch (const NumericsFailure &) { // no capsule: a step that is too long
+      }
+    if (error < too_much) {
+      shape += change;
+      linear = std::move(*next);
+      if (step > long_step)
+        return shape;
+    }
+    step *= std::clamp(std::sqrt(intended / error), 0.25, 3.0);
+  }
+  throw NumericsFailure("unresolved", "the profile to begin with does not come to rest in the tube",
+                        "leave --from away, or begin with a profile of a later x_g");
+}
+
+// On as many nodes as the profile may have been computed with, where its shape needs them.
+SteadyState near_profile(const Case &physics, const Profile &profile, const Control &control) {
+  const int nodes = std::clamp(static_cast<int>(profile.S.size() / 4), first_nodes, most_nodes);
+  const auto drawn = [&](std::shared_ptr<SteadySystem> system) -> SteadyState {
+    const Vector unknowns = nodes_on(profile, system->membrane());
+    return {std::move(system), unknowns};
+  };
+  SteadyState state =
+      drawn(system_on_mesh(physics, nodes, drawn(system_on_mesh(physics, spectral_basis(nodes).nodes))));
+  try {
+    state.unknowns = solve_steady(*state.system, state.unknowns, position_tolerance);
+  } catch (const NumericsFailure &) {
+    state.unknowns =
+        solve_steady(*state.system, relaxed(*state.system, state.unknowns, control), position_tolerance);
+  }
+  return state;
+}
+
 std::map<std::string, double> differences(const SeriesRow &a, const SeriesRow &b) {
   return {{"v_g", std::abs(a.v_g - b.v_g)},
           {"pressure_drop", std::abs(a.pressure_drop - b.pressure_drop)},
@@ -381,12 +438,8 @@ Portrait portray(const SteadyState &state) {
 } // namespace
 
 SteadyState find_steady(const Case &physics, const std::optional<Profile> &from, const Control &control) {
-  if (from) {
-    const int nodes = std::clamp(static_cast<int>(from->S.size() / 4), first_nodes, most_nodes);
-    SteadyState state{system_on_mesh(physics, spectral_basis(nodes).nodes), {}};
-    state.unknowns = nodes_on(*from, state.system->membrane());
-    return straight_to_mesh(physics, nodes, state);
-  }
+  if (from)
+    return near_profile(physics, *from, control);
   std::optional<NumericsFailure> first;
   const double flow = physics.flow.capillary_number;
   const double weakest = physics.flow.type == FlowType::extension ? 0 : 0.03; // only a tube squeezes

@@ -32,7 +32,8 @@ struct SteadyState {
   Vector unknowns;
 };
 
-// A case's steady state on a first mesh; `from` is any shape of the same capsule near to it. Throws
+// A case's steady state on a first mesh; `from` is any shape of the same capsule near to it, or one that relaxes to it
+// with equal viscosities. Throws
 // NumericsFailure, of the kind "fold" when there is none because the branch of growing capillary numbers
 // turns back and the membrane runs away behind the fold: the text says where. Any other turn is no statement about
 // the case, and "unresolved".

@@ -64,6 +64,12 @@ for quantity in v_g pressure_drop max_stretch min_film; do
   near "$(of from $quantity)" "$(of begin $quantity)" 1e-5 "$quantity from a march"
   near "$(of march $quantity)" "$(of begin $quantity)" 3e-2 "$quantity at the end of the march"
 done
+ends 0 steady case.toml --out from --from march
+grep -q 'computed before' log || fail 'from the same march it is computed again'
+ends 0 run case.toml --out march --set until.x_g=9
+ends 0 steady case.toml --out from --from march
+grep -q 'computed before' log && fail 'from another march nothing is computed'
+near "$(of from v_g)" "$(of begin v_g)" 1e-5 'v_g from another march'
 ends 4 steady case.toml --out from --from none
 mkdir bad
 for text in 'time,x_g' "$(head -n 1 march/profiles.csv)" "$(head -n 1 march/profiles.csv; echo '1,2,three')"; do

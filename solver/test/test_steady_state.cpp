@@ -219,6 +219,32 @@ BOOST_AUTO_TEST_CASE(begins_with_a_profile) {
   BOOST_TEST(std::abs(again.last.series.at(0).pressure_drop - first.last.series.at(0).pressure_drop) < 1e-6);
 }
 
+// An undeformed spheroid, from which Newton's method alone leads nowhere, relaxes to the state that branches lead to;
+// where there is none, its motion does not die away.
+BOOST_AUTO_TEST_CASE(begins_with_a_profile_from_far_away) {
+  Case physics = tube_case(LawName::skalak, 0.75, 0.05, 1e-4);
+  physics.capsule.aspect_ratio = 1.3;
+  physics.accuracy = 1e-3;
+  Profile spheroid;
+  const double b = 0.75 / std::cbrt(1.3);
+  const Vector angle = Vector::LinSpaced(241, 0, std::numbers::pi);
+  spheroid.x = -1.3 * b * angle.array().cos();
+  spheroid.r = b * angle.array().sin();
+  spheroid.S = Vector::Zero(angle.size());
+  for (Eigen::Index k = 1; k < angle.size(); ++k)
+    spheroid.S[k] =
+        spheroid.S[k - 1] + std::hypot(spheroid.x[k] - spheroid.x[k - 1], spheroid.r[k] - spheroid.r[k - 1]);
+  spheroid.velocity_x = Vector::Constant(angle.size(), 1);
+  const Outcome relaxed = steady(physics, spheroid, {});
+  BOOST_TEST_REQUIRE((relaxed.status == Status::steady));
+  BOOST_TEST(std::abs(relaxed.last.series.at(0).pressure_drop - steady_row(physics).pressure_drop) < 1e-4);
+  physics.membrane.law = LawName::neo_hookean;
+  physics.flow.capillary_number = 0.5;
+  const Outcome nowhere = steady(physics, spheroid, {});
+  BOOST_TEST((nowhere.status == Status::failed));
+  BOOST_TEST(nowhere.message.find("does not come to rest") != std::string::npos);
+}
+
 // On a branch that turns and comes back, several times, before the shell is as thin as asked for. Reference: a march to
 // x_g = 30 of a tube that ends at 38 (validation/steady-march has it with seven digits).
 BOOST_AUTO_TEST_CASE(behind_turns_that_are_no_end) {
