@@ -6,7 +6,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   static const std::filesystem::path file = [] {
-    const std::filesystem::path place = capsule::scratch_file();
+    std::filesystem::path place = capsule::scratch_file();
     capsule::write_scratch(place,
                            "capsule.radius = 0.9\nmembrane.law = \"skalak\"\nflow.capillary_number = 0.04\n");
     return place;

@@ -4,11 +4,8 @@
 //   inherit = ["a", "b"]              the runs of the first file and those of the second, and so on
 //   sweep."flow.viscosity_ratio" = []  one run per value; several sweeps make every combination
 // A plain value overrides an inherited sweep of the same key and the other way round; --set overrides both.
-// Every error of all files is collected and thrown as one InputError that reads like a compiler's messages:
-//   case.toml:14:1: error: unknown key 'flow.capilary_number'
-//      14 | capilary_number = 0.09
-//         | ^
-//   did you mean 'capillary_number'?
+// Every error of all files is collected and thrown as one InputError (located_text.hpp). The way of the data: toml_text,
+// case_reader (what the keys are given), case_file (the runs), case_checks (what values must be to each other).
 #include "case.hpp"
 #include <filesystem>
 #include <string>

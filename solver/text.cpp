@@ -129,4 +129,9 @@ std::string_view last_component(std::string_view key) {
   return key.substr(key.rfind('.') + 1);
 }
 
+std::string section_of(const std::string &key) {
+  const std::size_t dot = key.rfind('.');
+  return dot == std::string::npos ? "" : key.substr(0, dot);
+}
+
 } // namespace capsule

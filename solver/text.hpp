@@ -29,5 +29,7 @@ bool is_printable(char32_t c);
 
 // What follows the last dot of a key: "capillary_number" of "flow.capillary_number".
 std::string_view last_component(std::string_view key);
+// What stands before it: "flow".
+std::string section_of(const std::string &key);
 
 } // namespace capsule
