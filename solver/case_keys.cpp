@@ -68,7 +68,7 @@ std::vector<Key> make_keys() {
       {"pore.entrance_distance", "distance of the entrance section, L_E",
        member<double>(CAPSULE_AT(pore.entrance_distance)), above_up_to(1, 1000)},
 
-      {"capsule.radius", "radius of the sphere of the same volume, R_eq",
+      {"capsule.radius", "radius of the sphere of the same volume, R_eq; or physical.capsule_radius",
        member<double>(CAPSULE_AT(capsule.radius)), above_up_to(0, 10),
        "required; 1 with flow.type = \"extension\"", true},
       {"capsule.aspect_ratio", "axial over radial semi-axis, A/B",
@@ -242,7 +242,8 @@ struct Setter {
   std::optional<Complaint> operator()(const Measured &measured) const {
     const auto *text = std::get_if<std::string>(&value);
     if (!text)
-      return wrong_type(key, "a number with its unit in quotes", value);
+      return Complaint{wrong_type(key, "a number with its unit in quotes", value).message,
+                       allowed_hint(key, "")};
     const auto read = read_quantity(*text, measured.dimension);
     if (const auto *none = std::get_if<NoQuantity>(&read))
       return Complaint{fmt::format("{}: {}", key.name, none->why), allowed_hint(key, none->meant)};

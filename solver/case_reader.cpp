@@ -143,10 +143,27 @@ struct Flattener {
       found.push_back({key, sweep, place, given_values(reader, source, *key, sweep, node)});
   }
 
+  // A misspelt section is one mistake: what it holds is read as if it had the right name.
+  std::string section_meant(const TextPlace &place, const std::string &name) {
+    std::vector<std::string> known = {"sweep"};
+    for (const Key &key : keys())
+      known.push_back(section_of(key.name));
+    if (std::ranges::find(known, name) != known.end() || find_key(name) != nullptr)
+      return name;
+    const std::string near = nearest_word(name, known);
+    if (near.empty())
+      return name;
+    reader.complain(place, fmt::format("unknown section '{}'", name),
+                    fmt::format("did you mean '{}'?", near));
+    return near;
+  }
+
   void table(const toml::table &table, const std::string &prefix, bool sweep) {
     for (auto &&[key, node] : table) {
-      const std::string name = prefix + std::string(key.str());
+      std::string name = prefix + std::string(key.str());
       const TextPlace place = key_place(reader, source, key);
+      if (prefix.empty() && !sweep && node.is_table())
+        name = section_meant(place, name);
       const bool sweeps = sweep || name == "sweep";
       if (name == "sweep" && !sweep && !node.is_table())
         reader.complain(place, "'sweep' is a section, not a key", "write sweep.\"any.key\" = [...]");
@@ -169,7 +186,10 @@ void collect(CaseReader &reader, std::size_t source, const toml::table &root) {
     const auto same = std::ranges::find(reader.assignments, assignment.key, &Assignment::key);
     if (same != reader.assignments.end()) {
       if (same->place.source == source)
-        reader.complain(assignment.place, fmt::format("'{}' is both set and swept", assignment.key->name));
+        reader.complain(
+            assignment.place,
+            fmt::format("'{}' {}", assignment.key->name,
+                        same->sweep == assignment.sweep ? "stands here again" : "is both set and swept"));
       reader.assignments.erase(same);
     }
     reader.assignments.push_back(assignment);

@@ -74,9 +74,9 @@ std::vector<PhysicalComplaint> physical_complaints(const Case &physics) {
   require(p.viscosity, "physical.viscosity");
   require_one(p.flow_rate, "physical.flow_rate", p.pressure, "physical.pressure");
   require_one(p.shear_modulus, "physical.shear_modulus", p.young_modulus, "physical.young_modulus");
-  if (p.pressure.si > 0)
-    require(p.pore_length, "physical.pore_length");
-  else if (p.pore_length.si > 0)
+  if (p.pressure.si > 0 && p.pore_length.si == 0)
+    complaints.push_back({"physical.pressure needs physical.pore_length", {"physical.pressure"}});
+  if (p.pressure.si == 0 && p.pore_length.si > 0)
     complaints.push_back(
         {"physical.pore_length means nothing without physical.pressure", {"physical.pore_length"}});
   return complaints;

@@ -79,7 +79,7 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
   for (const std::string &candidate : candidates) {
     if (word.size() >= candidate.size() + smallest)
       continue;
-    const bool abbreviated = word.size() >= 3 && candidate.starts_with(word);
+    const bool abbreviated = word.size() >= 3 && candidate.starts_with(word) && candidate != word;
     if (const std::size_t distance = abbreviated ? 1 : edit_distance(word, candidate); distance < smallest) {
       smallest = distance;
       best = candidate;

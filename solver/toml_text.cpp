@@ -28,21 +28,28 @@ std::size_t find_joined(const std::u32string &text) {
   return std::u32string::npos;
 }
 
-TextPlace place_of(std::size_t source, std::u32string_view text, std::size_t at) {
+TextPlace place_at(std::size_t source, std::u32string_view text, std::size_t at) {
   const std::u32string_view before = text.substr(0, at);
   const auto lines = static_cast<std::size_t>(std::ranges::count(before, U'\n'));
   return {source, lines + 1, before.size() - (before.rfind(U'\n') + 1) + 1};
 }
 
 // What toml++ says of a text whose characters beyond ASCII it was given as question marks.
-std::string description_of(const toml::parse_error &error, const TextPlace &place,
-                           const std::u32string &text) {
-  std::string description(error.description());
+LocatedError syntax_error(std::size_t source, const toml::parse_error &error, const std::u32string &text) {
+  LocatedError told{place_of(source, error.source().begin), std::string(error.description()), ""};
   const std::vector<std::u32string> lines = split_lines(text);
-  const std::size_t mark = description.rfind("'?'");
-  if (mark != std::string::npos && place.line <= lines.size() && place.column <= lines[place.line - 1].size())
-    description.replace(mark + 1, 1, encoded({&lines[place.line - 1][place.column - 1], 1}));
-  return description;
+  if (told.place.line > lines.size() || told.place.column > lines[told.place.line - 1].size())
+    return told;
+  const std::u32string_view line = lines[told.place.line - 1];
+  const std::size_t at = told.place.column - 1;
+  if (const std::size_t mark = told.message.rfind("'?'"); mark != std::string::npos)
+    told.message.replace(mark + 1, 1, encoded(line.substr(at, 1)));
+  const std::u32string_view before = line.substr(0, line.find_last_not_of(U' ', at == 0 ? 0 : at - 1) + 1);
+  const bool behind_number = !before.empty() && before.back() >= U'0' && before.back() <= U'9';
+  const bool letter = (line[at] >= U'a' && line[at] <= U'z') || (line[at] >= U'A' && line[at] <= U'Z');
+  if (behind_number && (letter || !is_ascii(line[at])))
+    told.hint = "a number with its unit stands in quotes: \"5 um\"";
+  return told;
 }
 
 } // namespace
@@ -75,14 +82,14 @@ std::variant<std::string, Complaint> read_text(const fs::path &file) {
 std::variant<toml::table, LocatedError> parse_toml(std::size_t source, const std::string &text) {
   const std::u32string characters = characters_of(text);
   if (const std::size_t zero = characters.find(U'\0'); zero != std::u32string::npos)
-    return LocatedError{place_of(source, characters, zero), "not a text file: byte 0", ""};
+    return LocatedError{place_at(source, characters, zero), "not a text file: byte 0", ""};
   if (const auto [wrong, unused] = std::ranges::mismatch(text, encoded(decoded(text))); wrong != text.end()) {
     const std::u32string before = characters_of({text.begin(), wrong});
-    return LocatedError{place_of(source, before, before.size()),
+    return LocatedError{place_at(source, before, before.size()),
                         fmt::format("not UTF-8: byte 0x{:02x}", static_cast<unsigned char>(*wrong)), ""};
   }
   if (const std::size_t joined = find_joined(characters); joined != std::u32string::npos)
-    return LocatedError{place_of(source, characters, joined),
+    return LocatedError{place_at(source, characters, joined),
                         "a joined line must begin with an ASCII character", ""};
   try {
     std::string ascii;
@@ -91,8 +98,7 @@ std::variant<toml::table, LocatedError> parse_toml(std::size_t source, const std
     const toml::table well_formed = toml::parse(std::string_view(ascii)); // or it throws
     return toml::parse(std::string_view(text));
   } catch (const toml::parse_error &error) {
-    const TextPlace place = place_of(source, error.source().begin);
-    return LocatedError{place, description_of(error, place, characters), ""};
+    return syntax_error(source, error, characters);
   }
 }
 

@@ -235,6 +235,8 @@ std::variant<Quantity, NoQuantity> read_quantity(const std::string &typed, const
   if (unit_part.starts_with(','))
     return NoQuantity{fmt::format("'{}' has a comma in its number", text),
                       fmt::format("{}.{}", text.substr(0, digits), text.substr(digits + 1))};
+  if (unit_part.substr(std::min(unit_part.find_first_not_of(".x "), unit_part.size())).starts_with("10"))
+    return NoQuantity{fmt::format("'{}': a power of ten is written as in 5e-6", text), ""};
   UnitReader reader{unit_part};
   if (!reader.units()) {
     const std::string_view word = reader.word();

@@ -261,6 +261,13 @@ BOOST_AUTO_TEST_CASE(the_message_in_full) {
                                                  "did you mean 'capillary_number'?\n");
 }
 
+BOOST_AUTO_TEST_CASE(a_quantity_without_quotes) {
+  const TemporaryDirectory directory;
+  for (const char *value : {"5 um", "5um", "5 \u00b5m", "1e-3 Pa.s"})
+    check_contains(message_of(directory.write("case.toml", "physical.tube_radius = " + std::string(value))),
+                   "a number with its unit stands in quotes: \"5 um\"");
+}
+
 // The caret stands below the character that is meant, also in a line that is too long to be shown.
 BOOST_AUTO_TEST_CASE(characters_of_the_excerpt) {
   const TemporaryDirectory directory;
@@ -282,8 +289,16 @@ BOOST_AUTO_TEST_CASE(unknown_keys) {
   check_errors("flow.capilary_number = 0.1\n" + sphere.substr(0, sphere.find("[flow]")),
                {"1:1: error: unknown key 'flow.capilary_number'"});
   check_errors("radius = 0.5\n" + sphere, {"1:1: error: unknown key 'radius'"});
-  check_errors(sphere + "[floww]\nx = 1\n", {"10:1: error: unknown key 'floww.x'"});
-  check_errors(sphere + "[floww]\n", {"9:1: error: unknown key 'floww'"});
+  check_errors(sphere + "[floww]\nx = 1\n",
+               {"9:1: error: unknown section 'floww'", "10:1: error: unknown key 'flow.x'"});
+  check_errors(sphere + "[floww]\n", {"9:1: error: unknown section 'floww'"});
+  check_errors("[elsewhere]\nx = 1\n" + sphere.substr(sphere.find('\n') + 1),
+               {"2:1: error: unknown key 'elsewhere.x'"});
+  check_errors(
+      "capsul.radius = 0.9\nmembrane.law = 'skalak'\nflw.capillary_number = 1\nflow.viscosity_ratio = 1\n"
+      "flow.capillary_number = 1",
+      {"1:1: error: unknown section 'capsul'", "3:1: error: unknown section 'flw'",
+       "5:1: error: 'flow.capillary_number' stands here again"});
   check_errors("flow = 3\n" + sphere.substr(0, sphere.find("[flow]")),
                {"1:1: error: 'flow' is a section", "1:1: error: missing key 'flow.capillary_number'"});
   check_errors(sphere + "sweeps.'flow.viscosity_ratio' = [1]\n", {"9:1: error: unknown key 'flow.sweeps"});
@@ -367,6 +382,9 @@ BOOST_AUTO_TEST_CASE(not_toml) {
   check_errors("paper = \"\xc3\xa9\xff\"\n" + sphere, {"1:11: error: not UTF-8: byte 0xff"});
   check_errors("\xef\xbb\xbfpaper = \"\xc3\n" + sphere, {"1:10: error: not UTF-8: byte 0xc3"});
   // What the parser cannot be trusted with.
+  check_errors(sphere + "viscosity_ratio = 5 um\n", {"9:21: error:"});
+  check_errors(sphere + "viscosity_ratio = 5 \u00b5m\n", {"9:21: error:"});
+  check_errors(sphere + "viscosity_ratio = 5um\n", {"9:20: error:"});
   check_errors("r\xc3\xa9 = 1\n" + sphere,
                {"1:2: error: Error while parsing key-value pair: expected '=', saw '\u00e9'"});
   check_errors("accuracy =-\"\xc3\xa9\n" + sphere, {"1:"});

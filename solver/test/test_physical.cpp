@@ -120,6 +120,8 @@ BOOST_AUTO_TEST_CASE(contradictions_are_located) {
   BOOST_TEST(contains(twice, "flow.capillary_number = 0.1, but physical.flow_rate makes it 0.06366"));
   BOOST_TEST(contains(complaint(laboratory, {"physical.pressure=1 Pa"}),
                       "--set:1:19: error: physical.flow_rate and physical.pressure exclude each other"));
+  BOOST_TEST(contains(complaint(laboratory, {"physical.pressure=1 Pa"}),
+                      "--set:1:19: error: physical.pressure needs physical.pore_length"));
   BOOST_TEST(contains(complaint(laboratory, {"physical.pore_length=1 mm"}),
                       "--set:1:22: error: physical.pore_length means nothing without physical.pressure"));
   BOOST_TEST(contains(complaint(laboratory, {"physical.tube_radius=5 s"}), "'5 s' is a time, not a length"));
@@ -146,6 +148,7 @@ BOOST_AUTO_TEST_CASE(what_would_follow_from_a_wrong_quantity_is_not_missed) {
         std::array{"4 um", "64 um", "7:18: error: capsule.radius = 12.8 is out of range"},
         std::array{"capsule_radius", "capsule_radus", "7:1: error: unknown key 'physical.capsule_radus'"},
         std::array{"flow_rate", "flow_rat", "4:1: error: unknown key 'physical.flow_rat'"},
+        std::array{"[physical]", "[phyiscal]", "1:1: error: unknown section 'phyiscal'"},
         std::array{"\"1 mPa.s\"", "1e-3",
                    "3:13: error: physical.viscosity must be a number with its unit"}}) {
     const std::string told = complaint(replaced(laboratory, from, to));
