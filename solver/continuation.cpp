@@ -130,11 +130,14 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     const double length = std::sqrt(weighted(change, change));
     if (!contracts(iteration, before, length) || system_->admissible_step(now.unknowns, change.head(m)) < 1)
       no_convergence();
-    // From a matrix that is not quite the derivative corrections shrink by some part, however short the step.
+    // The second correction may be large where the third is none. From a matrix that is not quite the derivative
+    // corrections shrink by some part, however short the step.
+    const double now_by_before = length / before;
     if (iteration == 1)
-      contraction = length / before;
+      contraction = now_by_before;
     else if (iteration == 2)
-      contraction = std::max(contraction - length / before, 1e-3);
+      contraction =
+          std::max(std::min(contraction - now_by_before, std::sqrt(contraction * now_by_before)), 1e-3);
     before = length;
     now.unknowns += change.head(m);
     now.parameter += change[m];

@@ -120,10 +120,15 @@ std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, con
 
 namespace {
 
+// A guess.
+SteadyState moved_to_mesh(const Case &physics, int nodes, const SteadyState &state) {
+  const auto system = system_on_mesh(physics, nodes, state);
+  return {system, moved_to(*system, *state.system, state.unknowns)};
+}
+
 SteadyState straight_to_mesh(const Case &physics, int nodes, const SteadyState &state) {
-  SteadyState moved{system_on_mesh(physics, nodes, state), {}};
-  const Vector guess = moved_to(*moved.system, *state.system, state.unknowns);
-  moved.unknowns = solve_steady(*moved.system, guess, position_tolerance);
+  SteadyState moved = moved_to_mesh(physics, nodes, state);
+  moved.unknowns = solve_steady(*moved.system, moved.unknowns, position_tolerance);
   return moved;
 }
 
@@ -184,8 +189,8 @@ public:
 
   void go(const char *key, double to) {
     const KeyPath leg(key, now_, to);
-    place_ = Place{};
-    place_.direction = Branch::upwards(*state_.system);
+    const SteadyState begin = state_;
+    set_out();
     bool arrived = !leg.needed();
     while (!arrived) {
       try {
@@ -194,7 +199,10 @@ public:
         if (failure.kind == "fold" || !can_refine())
           throw;
       }
-      if (!arrived)
+      if (place_.part < 0) { // the fold that led here was the coarse mesh's own
+        state_ = moved_to_mesh(leg.at(0), next_mesh(), begin);
+        set_out();
+      } else if (!arrived)
         refine_at(leg.at(place_.part));
     }
     now_ = leg.at(1);
@@ -207,11 +215,15 @@ private:
   int next_mesh() const { return std::min(finer_mesh(static_cast<int>(state_.system->nodes())), most()); }
   bool can_refine() const { return state_.system->nodes() < most(); }
 
+  void set_out() {
+    place_ = Place{};
+    place_.direction = Branch::upwards(*state_.system);
+  }
+
   // To a guess on a finer mesh, from which the branch goes on as it did.
   void refine_at(const Case &physics) {
     const SteadyState coarse = state_;
-    state_.system = system_on_mesh(physics, next_mesh(), coarse);
-    state_.unknowns = moved_to(*state_.system, *coarse.system, coarse.unknowns);
+    state_ = moved_to_mesh(physics, next_mesh(), coarse);
     place_.direction = moved_to(*state_.system, *coarse.system, place_.direction);
   }
 

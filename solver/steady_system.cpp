@@ -50,6 +50,8 @@ void SteadySystem::build_flow() {
 
 void SteadySystem::take(const Case &physics) {
   take_physics(physics, membrane_);
+  centre_weights_ = nodal_area(membrane_, membrane_.reference);
+  centre_weights_ /= centre_weights_.sum();
   scene_.capsule = physics.capsule;
   scene_.membrane = physics.membrane;
   capillary_number_ = physics.flow.capillary_number;
@@ -118,7 +120,7 @@ Eigen::Matrix<double, 2, Eigen::Dynamic> SteadySystem::constraint_slopes(const V
   const Vector x_zeta = membrane_.at_nodes.even[1] * position.head(n);
   Eigen::Matrix<double, 2, Eigen::Dynamic> slopes(2, 2 * n);
   slopes.setZero();
-  slopes.row(0).head(n) = 0.5 * weights * membrane_.basis.nodes.array().sin();
+  slopes.row(0).head(n) = centre_weights_;
   slopes.row(1).head(n) =
       pi * (membrane_.at_nodes.even[1].transpose() * (weights * r.square()).matrix()).transpose();
   slopes.row(1).tail(n) = 2 * pi * weights * r * x_zeta.array();
@@ -138,7 +140,7 @@ Vector SteadySystem::equations(const Vector &unknowns, const Vector &velocity) c
   rows.head(n).array() -= unknowns[2 * n];
   rows.head(n).array() -= unknowns[2 * n + 1] * r_zeta.array() / arc;
   rows.segment(n, n).array() += unknowns[2 * n + 1] * x_zeta.array() / arc;
-  rows[2 * n] = 0.5 * (weights * membrane_.basis.nodes.array().sin() * position.head(n).array()).sum();
+  rows[2 * n] = centre_weights_.dot(position.head(n));
   rows[2 * n + 1] = pi * (weights * r.square() * x_zeta.array()).sum() - volume_;
   return rows;
 }

@@ -210,6 +210,20 @@ BOOST_AUTO_TEST_CASE(resolutions_agree) {
   BOOST_TEST(std::abs(fine.volume_change) < 1e-12);
 }
 
+// A shape moved to other nodes, even or not, is still centred.
+BOOST_AUTO_TEST_CASE(the_centre_is_that_of_any_mesh) {
+  Case physics = tube_case(LawName::skalak, 0.8, 0.05, 1e-3);
+  physics.capsule.aspect_ratio = 0.5;
+  const SteadyState solved = find_steady(physics, {}, {});
+  const auto even = system_on_mesh(physics, spectral_basis(64).nodes);
+  const Eigen::ArrayXd zeta = even->membrane().basis.nodes.array();
+  const auto uneven = system_on_mesh(physics, (zeta + 0.2 * zeta.sin() - 0.1 * (2 * zeta).sin()).matrix());
+  for (const auto &system : {even, uneven}) {
+    const Vector unknowns = moved_to(*system, *solved.system, solved.unknowns);
+    BOOST_TEST(std::abs(system->residual(unknowns)[2 * system->nodes()]) < 1e-8);
+  }
+}
+
 // The end of one way is the start of another: the profile of a steady state leads back to it.
 BOOST_AUTO_TEST_CASE(begins_with_a_profile) {
   const Case physics = tube_case(LawName::neo_hookean, 0.8, 0.05, 1e-3);
