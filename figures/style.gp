@@ -13,6 +13,7 @@ run(i) = word(runs, i + 0)
 results(run) = "results/".case."/".run
 series(run) = results(run)."/series.csv"
 profiles(run) = results(run)."/profiles.csv"
+series_physical(run) = results(run)."/series_physical.csv" # of a case in physical units
 # One number, NaN where there is none: of a summary.json, of this case's summaries and their error estimates, of
 # tables/published.csv, where the row speaks of this case, or of one whose runs it shows.
 # gnuplot takes "5e-09" for 5 with something behind it, "5.e-09" for what it is.

@@ -7,19 +7,37 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <set>
+#include <span>
 
 namespace capsule {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array columns{&Expectation::id,      &Expectation::where,     &Expectation::case_name,
-                             &Expectation::run,     &Expectation::quantity,  &Expectation::published,
-                             &Expectation::allowed, &Expectation::reason,    &Expectation::claim,
-                             &Expectation::kind,    &Expectation::statement, &Expectation::converged,
-                             &Expectation::verdict, &Expectation::evidence};
-constexpr const char *header = "id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,"
-                               "converged,verdict,evidence";
+struct Column {
+  const char *name;
+  std::string Expectation::*entry;
+};
+constexpr std::array published_columns{Column{"id", &Expectation::id},
+                                       Column{"where", &Expectation::where},
+                                       Column{"case", &Expectation::case_name},
+                                       Column{"run", &Expectation::run},
+                                       Column{"quantity", &Expectation::quantity},
+                                       Column{"published", &Expectation::published},
+                                       Column{"allowed", &Expectation::allowed},
+                                       Column{"reason", &Expectation::reason},
+                                       Column{"claim", &Expectation::claim},
+                                       Column{"kind", &Expectation::kind},
+                                       Column{"statement", &Expectation::statement},
+                                       Column{"converged", &Expectation::converged},
+                                       Column{"verdict", &Expectation::verdict},
+                                       Column{"evidence", &Expectation::evidence}};
+constexpr std::array own_columns{Column{"id", &Expectation::id},
+                                 Column{"run", &Expectation::run},
+                                 Column{"quantity", &Expectation::quantity},
+                                 Column{"expected", &Expectation::published},
+                                 Column{"allowed", &Expectation::allowed},
+                                 Column{"reason", &Expectation::reason}};
 constexpr std::array kinds{"number", "bound", "ratio", "order", "behaviour", "picture"};
 constexpr std::array verdicts{"agrees", "differs", "not decidable"};
 
@@ -36,7 +54,7 @@ std::string take_numbers(Expectation &row) {
   row.form = first == '<' ? Form::below : first == '>' ? Form::above : Form::value;
   const auto value = to_number(row.form == Form::value ? row.published : trimmed(row.published.substr(1)));
   if (!value)
-    return fmt::format("published '{}' is not a number", row.published);
+    return fmt::format("the value '{}' is not a number", row.published);
   row.published_value = *value;
   if (row.form != Form::value)
     return row.allowed.empty() ? "" : "a bound allows no distance";
@@ -46,7 +64,7 @@ std::string take_numbers(Expectation &row) {
   if (!allowed || !(*allowed > 0))
     return fmt::format("allowed '{}' is not a positive number, or one with %", row.allowed);
   if (row.relative && *value == 0)
-    return "nothing can be relative to a published value of 0";
+    return "nothing can be relative to a value of 0";
   row.allowed_distance = *allowed * (row.relative ? 0.01 : 1);
   return "";
 }
@@ -93,6 +111,38 @@ std::string mistake_of(Expectation &row) {
 
 std::string status_of(const Summary &summary) {
   return summary.status + (summary.failure.empty() ? "" : ":" + summary.failure);
+}
+
+// The rows of a file with these columns; what has no column is taken from `blank`.
+std::vector<Expectation> read_table(const fs::path &table, std::span<const Column> columns,
+                                    const Expectation &blank) {
+  const std::vector<std::string> lines = read_lines(table);
+  std::string errors;
+  const auto complain = [&](std::size_t line, const std::string &message) {
+    errors += fmt::format("{}:{}:1: error: {}\n", table.string(), line + 1, message);
+  };
+  std::vector<std::string> names;
+  std::ranges::transform(columns, std::back_inserter(names), &Column::name);
+  const std::string header = fmt::format("{}", fmt::join(names, ","));
+  if (lines.empty() || trimmed(lines[0]) != header)
+    complain(0, fmt::format("the first line must be '{}'", header));
+  std::vector<Expectation> rows;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> fields = split_csv(lines[i]);
+    if (fields.size() != columns.size()) {
+      complain(i, fmt::format("{} fields instead of {}", fields.size(), columns.size()));
+      continue;
+    }
+    Expectation row = blank;
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      row.*columns[k].entry = trimmed(fields[k]);
+    if (const std::string mistake = mistake_of(row); !mistake.empty())
+      complain(i, mistake);
+    rows.push_back(std::move(row));
+  }
+  if (!errors.empty())
+    throw InputError(errors);
+  return rows;
 }
 
 // What one row compares in one run.
@@ -218,30 +268,17 @@ std::optional<fs::path> find_expectations(const fs::path &case_file) {
 }
 
 std::vector<Expectation> read_expectations(const fs::path &table) {
-  const std::vector<std::string> lines = read_lines(table);
-  std::string errors;
-  const auto complain = [&](std::size_t line, const std::string &message) {
-    errors += fmt::format("{}:{}:1: error: {}\n", table.string(), line + 1, message);
-  };
-  if (lines.empty() || trimmed(lines[0]) != header)
-    complain(0, fmt::format("the first line must be '{}'", header));
-  std::vector<Expectation> rows;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> fields = split_csv(lines[i]);
-    if (fields.size() != columns.size()) {
-      complain(i, fmt::format("{} fields instead of {}", fields.size(), columns.size()));
-      continue;
-    }
-    Expectation row;
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      row.*columns.at(k) = trimmed(fields[k]);
-    if (const std::string mistake = mistake_of(row); !mistake.empty())
-      complain(i, mistake);
-    rows.push_back(std::move(row));
-  }
-  if (!errors.empty())
-    throw InputError(errors);
-  return rows;
+  return read_table(table, published_columns, {});
+}
+
+std::vector<Expectation> own_expectations(const fs::path &case_file, const std::string &case_name) {
+  const fs::path table = case_file.parent_path() / "expected.csv";
+  if (case_file.filename() != "case.toml" || !fs::exists(table))
+    return {};
+  Expectation row;
+  row.case_name = case_name;
+  row.verdict = verdict_text(Verdict::agrees);
+  return read_table(table, own_columns, row);
 }
 
 std::vector<Expectation> expectations_of(const std::vector<Expectation> &all, const std::string &case_name) {

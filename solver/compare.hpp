@@ -16,6 +16,8 @@
 // - converged: an expression for the converged value, where `quantity` is one of the paper's own numerics.
 // - verdict: what the comparison must find: "agrees", "differs", or "not decidable", where nothing is compared.
 // - evidence: why it differs or cannot be decided, and where this is shown.
+// What a case directory expects of its own case stands beside its case.toml, in expected.csv, with the columns id, run,
+// quantity, expected (a published value), allowed and reason; its rows must agree.
 // A row whose comparison finds another verdict than the recorded one is an error, whichever of the two it is. So is a
 // number or ratio of the paper whose own error estimate is more than a fifth of the distance that its verdict
 // speaks of: the allowed one if it agrees, the one that was found if it differs.
@@ -46,6 +48,10 @@ std::optional<std::filesystem::path> find_expectations(const std::filesystem::pa
 
 // All rows. Throws InputError with all mistakes of the table, and FileError.
 std::vector<Expectation> read_expectations(const std::filesystem::path &table);
+
+// The rows of expected.csv beside a case.toml; none without the file. Throws as above.
+std::vector<Expectation> own_expectations(const std::filesystem::path &case_file,
+                                          const std::string &case_name);
 
 // The rows of one case, those of every case too.
 std::vector<Expectation> expectations_of(const std::vector<Expectation> &all, const std::string &case_name);

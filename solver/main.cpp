@@ -23,6 +23,8 @@
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
 #include <thread>
 #include <unistd.h>
 
@@ -220,8 +222,10 @@ int run_branch(const Arguments &arguments) {
 int check(const Arguments &arguments) {
   const CaseInput input = read_case(arguments.path, arguments.overrides);
   const auto published = find_expectations(input.file);
-  const auto expectations =
-      published ? expectations_of(read_expectations(*published), input.name) : std::vector<Expectation>();
+  std::vector<Expectation> expectations = own_expectations(input.file, input.name);
+  if (published)
+    std::ranges::move(expectations_of(read_expectations(*published), input.name),
+                      std::back_inserter(expectations));
   write_run_list(input, run_options(arguments, input));
   const std::vector<RunResult> results = compute_case(input, arguments);
   if (std::ranges::any_of(results, is_interrupted))
@@ -328,7 +332,11 @@ int list_keys() {
 }
 
 int create(const std::string &id, const std::string &like) {
-  fmt::print("{}\n", new_case(".", id, like).string());
+  const fs::path directory = new_case(".", id, like);
+  std::set<std::string> files;
+  for (const auto &entry : fs::directory_iterator(directory))
+    files.insert(entry.path().filename());
+  fmt::print("{}: {}\n", directory.string(), fmt::join(files, " "));
   return done;
 }
 
@@ -398,7 +406,7 @@ int run_command(int argc, char **argv) {
       "Exit codes: 0 done, 1 a comparison differs, 2 bad input or usage, 3 the numerics failed, 4 files, "
       "130 interrupted (the same command goes on)");
   Arguments arguments;
-  std::string id, like;
+  std::string id, like = "example";
   int code = done;
   CLI::App &run_app = *app.add_subcommand("run", "compute every run of a case that is not finished yet");
   add_computing(run_app, arguments);
@@ -439,7 +447,7 @@ int run_command(int argc, char **argv) {
   CLI::App &new_app = *app.add_subcommand("new", "a new case directory cases/ID from another one");
   new_app.add_option("ID", id, "its name")->required();
   new_app.add_option("--like", like, "the case to copy: a directory, or the name of one in cases/")
-      ->required();
+      ->capture_default_str();
   new_app.callback([&] { code = create(id, like); });
   require_command(app, argc, argv);
   try {

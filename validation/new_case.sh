@@ -1,6 +1,6 @@
 #!/bin/sh
-# A case made by `capsule new` from another one is computed and drawn by the target `figures`, by its being there, though
-# it sweeps fewer values and no published number speaks of it.
+# Cases made by `capsule new`, of the example and of another one, are computed and drawn by the target `figures`, by their
+# being there, though one sweeps fewer values and no published number speaks of them.
 #   sh validation/new_case.sh path/to/capsule
 set -eu
 capsule=$(realpath "$1")
@@ -19,6 +19,9 @@ cp "$source/cases/common.toml" cases
 cp "$source/tables/published.csv" tables
 cp "$source/figures/style.gp" figures
 ln -s "$source/cmake" cmake
+cp -r "$source/cases/example" cases
+sed -i "s|^title.*|&\naccuracy = 1e-2|" cases/example/case.toml
+"$capsule" new first-case
 "$capsule" new my-case --like "$source/cases/fig07-viscosity-sphere"
 sed -i 's/^"flow.viscosity_ratio" = .*/"flow.viscosity_ratio" = [0.5, 1]/; s/^accuracy = .*/accuracy = 1e-2/' cases/my-case/case.toml
 
@@ -42,6 +45,10 @@ for figure in fig05a fig07a fig07b fig08; do
   done
   grep -q "my-case/$figure.png" figures/gallery.md || fail "$figure is not in the gallery"
 done
+for figure in pressure shapes; do
+  [ -s figures/first-case/$figure.svg ] || fail "no $figure.svg of the example's copy"
+done
+grep -q '8 of 8 rows agree' log || fail "the example's copy does not keep its expectations"
 grep -q 'λ = 0.5' figures/my-case/fig07a.md || fail 'the captions do not speak of the runs'
 grep -i -E '(^|[^a-z])-?nan' figures/my-case/*.md figures/my-case/*.svg tables/*.md && fail 'a number is missing'
 [ ! -e figures/deleted-case ] || fail 'the pictures of a case that is no longer there stay'

@@ -174,8 +174,8 @@ BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
   check_contains(mistake_in(header + "a,T,fig,,v_g,1\n"), "published.csv:2:1: error: 6 fields instead of 14");
   check_contains(mistake_in(header + "\n"), "published.csv:2:1: error: 1 fields");
   const auto mistake = [](const std::string &fields) { return mistake_in(header + plain(fields)); };
-  check_contains(mistake("a,T,x,,v_g,high,1 %,"), "published 'high' is not a number");
-  check_contains(mistake("a,T,x,,v_g,<high,,"), "published '<high' is not a number");
+  check_contains(mistake("a,T,x,,v_g,high,1 %,"), "the value 'high' is not a number");
+  check_contains(mistake("a,T,x,,v_g,<high,,"), "the value '<high' is not a number");
   check_contains(mistake("a,T,x,,v_g,<1,0.1,"), "a bound allows no distance");
   check_contains(mistake("a,T,x,,v_g,1,,"), "allowed '' is not a positive number");
   check_contains(mistake("a,T,x,,v_g,1,-1 %,"), "allowed '-1 %' is not");
@@ -193,6 +193,31 @@ BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
   for (const char *place : {":1:1: error: ", ":2:1: error: ", ":3:1: error: ", ":4:1: error: "})
     check_contains(all, place);
   BOOST_TEST(mistake_in(header + "a,T,fig,,v_g,1,1 %,,,,,,agrees,\r\n") == "no error");
+}
+
+// A case directory may say itself what it expects, in fewer columns; other files in it have none.
+BOOST_AUTO_TEST_CASE(expectations_of_the_directory) {
+  const TemporaryDirectory directory;
+  const auto file = directory.write("fig/case.toml", "");
+  BOOST_TEST(own_expectations(file, "fig").empty());
+  directory.write("fig/expected.csv", "id,run,quantity,expected,allowed,reason\n"
+                                      "a,viscosity_ratio=5,v_g,1.3,0.1 %,why\nb,,v_g,<1.25,,\n");
+  RunTable table;
+  table.add("fig", {result_with(1, 1.2), result_with(5, 1.3)});
+  const auto rows = compare(own_expectations(file, "fig"), "fig", table);
+  BOOST_REQUIRE(rows.size() == 3u);
+  BOOST_TEST(
+      (rows[0].as_recorded() && rows[0].run == "viscosity_ratio=5" && rows[0].expected.reason == "why"));
+  BOOST_TEST((rows[1].as_recorded() && !rows[2].as_recorded()));
+  BOOST_TEST(own_expectations(directory.write("fig/other.toml", ""), "fig-other").empty());
+  directory.write("fig/expected.csv", header);
+  try {
+    own_expectations(file, "fig");
+    BOOST_ERROR("accepted");
+  } catch (const InputError &error) {
+    check_contains(error.what(),
+                   "expected.csv:1:1: error: the first line must be 'id,run,quantity,expected,");
+  }
 }
 
 BOOST_AUTO_TEST_CASE(the_table_is_found_above_the_case) {

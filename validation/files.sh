@@ -1,0 +1,41 @@
+#!/bin/sh
+# paper-notes/files.md says what every column and every entry means that a run, a steady state and a branch leave.
+#   sh validation/files.sh path/to/capsule
+set -eu
+capsule=$(realpath "$1")
+notes=$(cd "$(dirname "$0")/.." && pwd)/paper-notes/files.md
+. "$(dirname "$0")/lib/answers.sh"
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+cd "$place"
+cat >case.toml <<'TOML'
+accuracy = 1e-2
+membrane.law = "skalak"
+membrane.bending_ratio = 1e-3
+until.time = 0.1
+[physical]
+tube_radius = "5 um"
+capsule_radius = "3 um"
+viscosity = "1 mPa.s"
+shear_modulus = "20 uN/m"
+flow_rate = "0.1 nl/s"
+TOML
+ends 0 run case.toml --out run
+ends 0 steady case.toml --out steady
+sed '/physical/,$d' case.toml >branch.toml
+printf '[capsule]\nradius = 0.5\n[flow]\ncapillary_number = 0.05\n' >>branch.toml
+ends 0 branch branch.toml --along flow.capillary_number --to 0.051 --out branch
+missing=0
+for word in $(ls run branch | sed '/:$/d; s/_000[1-9]/_0000/' | sort -u) \
+  $(cat */series.csv */profiles.csv */branch.csv | grep '^[a-z]' | tr ',' '\n' | sort -u) \
+  $(sed -n 's/^  "\([a-z_]*\)": .*/\1/p' */summary.json | sort -u); do
+  case $word in flow.*) continue ;; esac # the key that varies
+  grep -qF "\`$word\`" "$notes" || { echo "paper-notes/files.md does not speak of '$word'"; missing=$((missing + 1)); }
+done
+[ "$missing" -eq 0 ] || exit 1
+# The other way round: the names in the first column of its tables.
+for word in $(sed -n 's/^| \(`[^|]*`\) .*|.*|$/\1/p' "$notes" | grep -o '`[a-z_A-Z0-9.]*`' | tr -d '`'); do
+  ls run branch | grep -qxF "$word" || grep -qwF "$word" */*.csv */summary.json || [ "$word" = checkpoint.json ] ||
+    fail "paper-notes/files.md speaks of '$word', which nothing leaves"
+done
+echo 'the notes speak of what runs leave'
