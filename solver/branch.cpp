@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
+#include <optional>
 
 namespace capsule {
 namespace {
@@ -36,12 +37,21 @@ public:
     SteadyRecord record = record_steady(state, viscosity_ratio_);
     record.row.time = path_.value(part); // a branch has no time: what varies takes its place
     record.profile.time = record.row.time;
-    if (profile) {
-      outcome.last.series.push_back(record.row);
-      outcome.last.profiles.push_back(std::move(record.profile));
-    }
+    const BranchRow point{path_.value(part), record.row, record.rates.at("growth_rate")};
+    latest_ = std::move(record);
+    if (profile)
+      keep_latest();
     ++outcome.last.steps;
-    return {path_.value(part), record.row, record.rates.at("growth_rate")};
+    return point;
+  }
+
+  // Series and profile of the point that was looked at last, unless they are there.
+  void keep_latest() {
+    if (latest_) {
+      outcome.last.series.push_back(latest_->row);
+      outcome.last.profiles.push_back(std::move(latest_->profile));
+    }
+    latest_.reset();
   }
 
   Outcome outcome;
@@ -50,6 +60,7 @@ private:
   KeyPath path_;
   double viscosity_ratio_;
   const Control &control_;
+  std::optional<SteadyRecord> latest_; // that is not kept yet
 };
 
 // One branch from the case's own value of the key on.
@@ -100,6 +111,7 @@ public:
     return false;
   }
 
+  void end_here() { record_.keep_latest(); }
   Outcome &outcome() { return record_.outcome; }
   int nodes() const { return static_cast<int>(state_.system->nodes()); }
   std::string place() const { return path_.text(part_); }
@@ -170,6 +182,7 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
     }
     outcome.membrane_nodes = walk.nodes();
   } catch (const NumericsFailure &failure) {
+    walk.end_here();
     outcome.status = Status::failed;
     outcome.failure = failure.kind;
     outcome.message = fmt::format("{} (after {}); {}", failure.what(), walk.place(), failure.advice);

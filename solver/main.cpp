@@ -71,6 +71,22 @@ struct Arguments {
   double to = 0;         // and where it goes
 };
 
+// A case of the project that is called by its name alone, or by a name that is nearly right, is named in full.
+CaseInput read_case_of(const Arguments &arguments, const Task &task = {}) {
+  try {
+    return read_case(arguments.path, arguments.overrides, task);
+  } catch (const InputError &error) {
+    std::error_code ignored;
+    if (fs::exists(arguments.path, ignored))
+      throw;
+    const fs::path path = fs::path(arguments.path);
+    const fs::path name = path.has_filename() ? path.filename() : path.parent_path().filename();
+    const fs::path near = nearest_project_case("", name.string());
+    throw InputError(near.empty() ? error.what()
+                                  : fmt::format("{}did you mean '{}'?\n", error.what(), near.string()));
+  }
+}
+
 // What is computed of a case, and what computes it.
 struct Method {
   Task task = {};
@@ -115,9 +131,8 @@ std::vector<RunResult> compute_case(const CaseInput &input, const RunOptions &op
                  result.summary->message);
   const auto unfinished = std::ranges::count_if(results, is_interrupted);
   if (unfinished > 0)
-    fmt::print(stderr,
-               "interrupted: {} of {} runs to finish; the same command goes on from the last checkpoint\n",
-               unfinished, results.size());
+    fmt::print(stderr, "interrupted: {} of {} to finish; the same command goes on from the last checkpoint\n",
+               unfinished, counted(results.size(), "run"));
   return results;
 }
 
@@ -173,8 +188,8 @@ int list_runs(const CaseInput &input, const RunOptions &options) {
 
 CaseInput one_run_of(CaseInput input, std::size_t number) {
   if (number > input.runs.size())
-    throw InputError(fmt::format("error: --only {}: {} has {} runs; `capsule run {} --list` shows them\n",
-                                 number, input.name, input.runs.size(), input.file.string()));
+    throw InputError(fmt::format("error: --only {}: {} has {}; `capsule run {} --list` shows them\n", number,
+                                 input.name, counted(input.runs.size(), "run"), input.file.string()));
   input.runs = {input.runs[number - 1]};
   return input;
 }
@@ -186,13 +201,15 @@ int run(const CaseInput &whole, const Arguments &arguments, const Method &method
   const CaseInput input = arguments.only > 0 ? one_run_of(whole, arguments.only) : whole;
   write_run_list(whole, options);
   const std::vector<RunResult> results = compute_case(input, arguments, method);
+  if (const std::string remark = method.task.motion ? unsteady_remark(results) : ""; !remark.empty())
+    fmt::print(stderr, "{}: {}\n", whole.name, remark);
   if (std::ranges::any_of(results, is_interrupted))
     return interrupted;
   return std::ranges::any_of(results, has_failed) ? numerics_failed : done;
 }
 
 int run(const Arguments &arguments, const Method &method = {}) {
-  return run(read_case(arguments.path, arguments.overrides, method.task), arguments, method);
+  return run(read_case_of(arguments, method.task), arguments, method);
 }
 
 int run_steady(const Arguments &arguments) {
@@ -210,7 +227,7 @@ int run_branch(const Arguments &arguments) {
   const Task task{.motion = false,
                   .name =
                       fmt::format("branch --along {} --to {}", arguments.along, number_text(arguments.to))};
-  const CaseInput whole = read_case(arguments.path, arguments.overrides, task);
+  const CaseInput whole = read_case_of(arguments, task);
   for (const RunInput &input : whole.runs)
     require_branch(input.physics, arguments.along, arguments.to);
   return run(whole, arguments,
@@ -220,7 +237,7 @@ int run_branch(const Arguments &arguments) {
 }
 
 int check(const Arguments &arguments) {
-  const CaseInput input = read_case(arguments.path, arguments.overrides);
+  const CaseInput input = read_case_of(arguments);
   const auto published = find_expectations(input.file);
   std::vector<Expectation> expectations = own_expectations(input.file, input.name);
   if (published)
@@ -255,14 +272,13 @@ int check(const Arguments &arguments) {
     write_atomically(arguments.table + ".csv", csv_table(rows));
     write_atomically(arguments.table + ".md", markdown_table(rows));
   }
-  fmt::print("{}: {}: {} of {} rows agree, {} differ, {} not decidable; {} runs failed unexpectedly\n",
-             input.name,
+  fmt::print("{}: {}: {} of {} agree, {} differ, {} not decidable; {} failed unexpectedly\n", input.name,
              failures > 0          ? "FAILS"
              : comparisons.empty() ? "NOTHING TO COMPARE"
              : all                 ? "AS RECORDED"
                                    : "NOT AS RECORDED",
-             count(Verdict::agrees), comparisons.size(), count(Verdict::differs),
-             count(Verdict::not_decidable), failures);
+             count(Verdict::agrees), counted(comparisons.size(), "row"), count(Verdict::differs),
+             count(Verdict::not_decidable), counted(static_cast<std::size_t>(failures), "run"));
   return failures > 0 ? numerics_failed : all ? done : differs;
 }
 
@@ -290,12 +306,13 @@ int ledger(const Arguments &arguments) {
   const Ledger ledger = make_ledger(comparisons);
   write_atomically(arguments.table + ".csv", ledger.csv);
   write_atomically(arguments.table + ".md", ledger.markdown);
-  fmt::print("{}: {}; {} rows not as recorded\n", arguments.table, ledger.summary, ledger.not_as_recorded);
+  fmt::print("{}: {}; {} not as recorded\n", arguments.table, ledger.summary,
+             counted(static_cast<std::size_t>(ledger.not_as_recorded), "row"));
   return ledger.not_as_recorded == 0 ? done : differs;
 }
 
 int show(const Arguments &arguments) {
-  const CaseInput input = read_case(arguments.path, arguments.overrides);
+  const CaseInput input = read_case_of(arguments);
   const RunOptions options = run_options(arguments, input);
   std::size_t finished = 0;
   double seconds_left = 0;
@@ -305,13 +322,13 @@ int show(const Arguments &arguments) {
     finished += state.finished ? 1 : 0;
     seconds_left += left;
     fmt::print("# {}: {}{}\n{}\n", run_input.name.empty() ? input.name : run_input.name,
-               state.finished       ? fmt::format("finished in {}", duration_text(state.wall_seconds))
+               state.finished       ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
                : state.fraction > 0 ? fmt::format("{:.0f} % done", 100 * state.fraction)
                                     : "to be computed",
                state.finished ? "" : fmt::format(", about {} to go", duration_text(left)),
                resolved_toml(run_input.physics));
   }
-  fmt::print("# {} runs, {} finished, about {} of one core to go\n", input.runs.size(), finished,
+  fmt::print("# {}, {} finished, about {} of one core to go\n", counted(input.runs.size(), "run"), finished,
              duration_text(seconds_left));
   return done;
 }

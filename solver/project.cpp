@@ -1,12 +1,22 @@
 #include "project.hpp"
+#include "text.hpp"
+#include <algorithm>
+#include <array>
+#include <vector>
 
 namespace capsule {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr std::array folders{"cases", "validation"};
+
+}
+
 std::optional<ProjectCase> find_project_case(const fs::path &root, const std::string &name) {
   std::error_code ignored;
-  for (const char *folder : {"cases", "validation"}) {
+  for (const char *folder : folders) {
     if (fs::exists(root / folder / name / "case.toml", ignored))
       return ProjectCase{root / folder / name, {}};
     // "<id>-<name>": each dash may be the one between them.
@@ -19,6 +29,20 @@ std::optional<ProjectCase> find_project_case(const fs::path &root, const std::st
     }
   }
   return std::nullopt;
+}
+
+fs::path nearest_project_case(const fs::path &root, const std::string &name) {
+  if (const auto exact = find_project_case(root, name))
+    return exact->file;
+  std::vector<std::string> names;
+  std::error_code ec;
+  for (const char *folder : folders)
+    for (fs::directory_iterator entry(root / folder, ec), end; !ec && entry != end; entry.increment(ec))
+      if (fs::exists(entry->path() / "case.toml", ec))
+        names.push_back(entry->path().filename().string());
+  std::ranges::sort(names); // of two that are as near, always the same
+  const std::string near = nearest_word(name, names);
+  return near.empty() ? fs::path() : find_project_case(root, near)->file;
 }
 
 } // namespace capsule

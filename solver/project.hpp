@@ -16,4 +16,8 @@ struct ProjectCase {
 // Nothing if there is no such case.
 std::optional<ProjectCase> find_project_case(const std::filesystem::path &root, const std::string &name);
 
+// The case of that name, or the one whose directory's name is nearest to it, as read_case takes it; empty if none is
+// near.
+std::filesystem::path nearest_project_case(const std::filesystem::path &root, const std::string &name);
+
 } // namespace capsule

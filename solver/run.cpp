@@ -3,6 +3,7 @@
 #include "failure.hpp"
 #include "progress.hpp"
 #include "resolution.hpp"
+#include "text.hpp"
 #include "workers.hpp"
 #include <algorithm>
 #include <cerrno>
@@ -92,17 +93,19 @@ std::string report(const RunResult &result, const std::string &case_name, Course
       fmt::format("{}: {}", result.input.name.empty() ? case_name : result.input.name, summary.status);
   if (!summary.failure.empty())
     text += fmt::format(" ({})", summary.failure);
-  const auto add = [&](const char *label, const char *quantity) {
+  const auto add = [&](const std::string &label, const char *quantity, int digits = 6) {
     if (const auto value = summary.quantities.find(quantity); value != summary.quantities.end())
-      text += fmt::format("  {} {:.6g}", label, value->second);
+      text += fmt::format("  {} {:.{}g}", label, value->second, digits);
   };
-  if (summary.status != "steady") {
+  if (!summary.along.empty())
+    add(summary.along, "time"); // which the key has taken the place of
+  else if (summary.status != "steady") {
     add("t", "time");
     add("x_g", "x_g");
   }
   add("v_g", "v_g");
   add("pressure drop", "pressure_drop");
-  add("seconds", "wall_seconds");
+  add("CPU seconds", "cpu_seconds", 3);
   return text +
          fmt::format("{}  -> {}", course == found ? " (computed before)" : "", result.directory.string());
 }
@@ -293,14 +296,43 @@ RunState state_of(const RunInput &run, const RunOptions &options) {
   if (is_there(run, options)) {
     const Summary summary = read_summary(home);
     const std::string ending = summary.status + (summary.failure.empty() ? "" : ": " + summary.failure);
-    return {true, ending, 1, summary.quantities.at("wall_seconds")};
+    return {true, ending, 1, summary.quantities.at("cpu_seconds")};
   }
   const auto saved = read_checkpoint(home, identity);
   if (!saved)
     return {};
   const std::vector<SeriesRow> &series = saved->checkpoint.series;
   return {false, "", series.empty() ? 0 : fraction_done(run.physics, series.back().time, series.back().x_g),
-          saved->effort.wall_seconds};
+          saved->effort.cpu_seconds};
+}
+
+std::string unsteady_remark(const std::vector<RunResult> &results) {
+  std::size_t unsteady = 0;
+  double fastest = 0;
+  bool by_x_g = false;
+  for (const auto &[input, directory, summary] : results) {
+    if (!summary || summary->status != "reached")
+      continue;
+    const auto at_the_end = [&quantities = summary->quantities](const char *name) {
+      const auto found = quantities.find(name);
+      return found == quantities.end() ? 0 : found->second;
+    };
+    const double moving = std::max(at_the_end("max_axial_residual"), at_the_end("max_radial_velocity"));
+    const bool in_the_mouth = input.physics.pore.shape == PoreShape::hyperbolic && at_the_end("x_g") < 0;
+    if (moving <= input.physics.accuracy || in_the_mouth)
+      continue;
+    ++unsteady;
+    fastest = std::max(fastest, moving);
+    by_x_g = by_x_g || input.physics.until.x_g;
+  }
+  if (unsteady == 0)
+    return "";
+  return fmt::format(
+      "not steady yet{}: the membrane still moves with {}{:.2g} relative to its centre; {} leads nearer, "
+      "`capsule steady` finds the steady state",
+      results.size() == 1 ? "" : fmt::format(", {} of {}", unsteady, counted(results.size(), "run")),
+      unsteady == 1 ? "" : "up to ", fastest,
+      by_x_g ? "a larger until.x_g (with pore.exit_x)" : "a larger until.time");
 }
 
 double estimated_seconds(const Case &physics) {

@@ -48,9 +48,13 @@ struct RunState {
   bool finished = false;
   std::string ending;  // "reached", "failed: wrinkled"; empty unless finished
   double fraction = 0; // of an interrupted one
-  double wall_seconds = 0;
+  double cpu_seconds = 0;
 };
 RunState state_of(const RunInput &run, const RunOptions &options);
+
+// One line about marches whose membranes move faster relative to their centre, when they end, than the accuracy that was
+// asked for, in the pore: what they end with is not the steady state to it. Empty if there are none.
+std::string unsteady_remark(const std::vector<RunResult> &results);
 
 // What a whole run costs on one core, from runs that were measured on one server: good to a factor of three.
 double estimated_seconds(const Case &physics);

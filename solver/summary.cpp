@@ -128,6 +128,8 @@ Summary read_summary(const std::filesystem::path &directory) {
     summary.status = text("status");
     summary.failure = text("failure");
     summary.message = text("message");
+    if (json->contains("along"))
+      summary.along = text("along");
     for (const auto &[name, value] : json->items())
       if (value.is_number())
         summary.quantities[name] = value;

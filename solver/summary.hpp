@@ -18,6 +18,7 @@ struct Summary {
   std::string message;
   std::map<std::string, double> quantities;
   std::map<std::string, double> error_estimate;
+  std::string along = {}; // of a branch: the key that varies
 };
 // Throws FileError.
 Summary read_summary(const std::filesystem::path &directory);

@@ -1,5 +1,6 @@
 #pragma once
 // Numbers, words and characters as text.
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,9 @@ std::string number_text(double value);
 
 // The number that a text is, the whole of it.
 std::optional<double> to_number(const std::string &text);
+
+// "1 run", "4 runs".
+std::string counted(std::size_t number, std::string_view what);
 
 // Without spaces around it.
 std::string trimmed(const std::string &text);

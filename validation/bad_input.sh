@@ -111,6 +111,11 @@ expect 2 "^--set:1:25: error: physical.capsule_radius: '4 s' is a time, not a le
 rm physical.toml
 
 expect 2 '^none:1:1: error: no such file' "$capsule" run none
+mkdir -p cases/prolate-c1
+echo "$good" >cases/prolate-c1/case.toml
+expect 2 "^did you mean 'cases/prolate-c1'" "$capsule" run prolate-c1
+expect 2 "^did you mean 'cases/prolate-c1'" "$capsule" steady cases/prolat-c1/
+rm -r cases
 mkdir empty
 expect 2 '^empty/case.toml:1:1: error: no such file' "$capsule" run empty
 echo "$good" >file.toml

@@ -47,6 +47,7 @@ grep -q 'computed before' log && cmp before branch/branch.csv || fail 'a finishe
 
 ends 0 branch case.toml --along $key --to 0.3 --out folded
 [ "$(of folded status)" = '"unbounded"' ] || fail 'the branch does not run away'
+grep -q "unbounded  $key 0\.[0-9]*  v_g" log || fail 'the line of a branch does not say where it ends'
 sed -n '/"folds"/,/\]/p' folded/summary.json >folds
 [ "$(grep -c "\"$key\"" folds)" -eq 1 ] || fail 'not one fold'
 fold=$(of folded $key)
@@ -59,6 +60,7 @@ ends 0 steady case.toml --out below --set $key="$(awk -v f="$fold" 'BEGIN { prin
 
 # From a march through the whole pore, and from what is no profile.
 ends 0 run case.toml --out march
+grep -q 'not steady yet: the membrane still moves with 0\.[0-9]* relative' log || fail 'the end of a march is taken for steady'
 ends 0 steady case.toml --out from --from march
 for quantity in v_g pressure_drop max_stretch min_film; do
   near "$(of from $quantity)" "$(of begin $quantity)" 1e-5 "$quantity from a march"

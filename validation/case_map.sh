@@ -8,7 +8,7 @@ failures=0
 for directory in cases/*/; do
   id=$(basename "$directory")
   paper=$(sed -n 's/^paper = "\(.*\)"$/\1/p' "cases/$id/case.toml")
-  runs=$("$capsule" show "cases/$id" | sed -n 's/^# \([0-9]*\) runs, .*/\1/p')
+  runs=$("$capsule" show "cases/$id" | sed -n 's/^# \([0-9]*\) runs*, .*/\1/p')
   if [ -n "$paper" ] && ! grep -Fq "| $paper | \`cases/$id\` | $runs" README.md; then
     echo "README.md has no row '| $paper | \`cases/$id\` | $runs ...'"
     failures=$((failures + 1))

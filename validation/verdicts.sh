@@ -41,7 +41,7 @@ says 'NOTHING TO COMPARE'
 printf '%s\n' "$head" "$good" >tables/published.csv
 ends 3 check cases/small
 says 'computed before'
-says '1 runs failed unexpectedly'
+says '; 1 run failed unexpectedly'
 printf '%s\n' "$head" "$good" "$exit_row" >tables/published.csv
 ends 0 check cases/small --table table
 says 'small: AS RECORDED: 2 of 3 rows agree, 1 differ, 0 not decidable; 0 runs failed'
@@ -60,7 +60,7 @@ for wrong in "$(echo "$good" | sed 's/,2,0.01,/,3,0.01,/')" "$(echo "$good" | se
   ends 1 check cases/small
   says 'NOT AS RECORDED'
   ends 1 ledger --table all
-  says '1 rows not as recorded'
+  says '; 1 row not as recorded'
 done
 
 # Who chooses a run does not ask for the others.

@@ -246,6 +246,8 @@ BOOST_AUTO_TEST_CASE(numbers_as_text) {
   BOOST_TEST(number_text(15.0) == "15");
   BOOST_TEST(number_text(0.2) == "0.2");
   BOOST_TEST(std::stod(number_text(0.1 + 0.2)) == 0.1 + 0.2);
+  BOOST_TEST(counted(0, "run") == "0 runs");
+  BOOST_TEST(counted(1, "run") == "1 run");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
