@@ -4,6 +4,7 @@
 // results are taken from figures/<id>/, tables/<id>.csv and results/<id>/, as `make figures` and `make atlas` leave
 // them. What a directory has not computed yet is left out. The page's frame, style and player lie beside this file.
 #include "atomic_file.hpp"
+#include "case_file.hpp"
 #include "run_values.hpp"
 #include "text.hpp"
 #include <algorithm>
@@ -339,9 +340,12 @@ std::string filled(const std::string &frame, const std::map<std::string, std::st
 }
 
 void write_page(const fs::path &page, const std::vector<fs::path> &directories) {
-  std::string cases, studies;
-  for (const fs::path &directory : directories)
-    (directory.parent_path().filename() == "cases" ? cases : studies) += chapter(directory);
+  std::string of_the_paper, others, studies;
+  for (const fs::path &directory : directories) {
+    const bool is_case = directory.parent_path().filename() == "cases";
+    const bool is_item = is_case && !capsule::read_case(directory).runs.front().physics.paper.empty();
+    (is_item ? of_the_paper : is_case ? others : studies) += chapter(directory);
+  }
   const std::vector<fs::path> runs = finished_runs(directories);
   const fs::path source = REPORT_SOURCE;
   const std::string html =
@@ -349,7 +353,7 @@ void write_page(const fs::path &page, const std::vector<fs::path> &directories) 
                                                {"script", read_file(source / "player.js")},
                                                {"ledger", ledger()},
                                                {"tables", paper_tables()},
-                                               {"cases", cases},
+                                               {"cases", of_the_paper + others},
                                                {"studies", studies},
                                                {"provenance", provenance(runs)},
                                                {"player", player_data(runs)}});
