@@ -2,12 +2,7 @@
 # Steady states and branches by the program: a branch begins and ends at the states that `steady` finds, both know the
 # fold, on whose far side there is none, and the end of a march leads to the same state.
 #   sh validation/branch.sh path/to/capsule
-set -eu
-capsule=$(realpath "$1")
-. "$(dirname "$0")/lib/answers.sh"
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
+. "$(dirname "$0")/lib/program.sh"
 cat >case.toml <<'TOML'
 accuracy = 1e-3
 capsule.radius = 0.8

@@ -1,13 +1,8 @@
 #!/bin/sh
 # paper-notes/files.md says what every column and every entry means that a run, a steady state and a branch leave.
 #   sh validation/files.sh path/to/capsule
-set -eu
-capsule=$(realpath "$1")
-notes=$(cd "$(dirname "$0")/.." && pwd)/paper-notes/files.md
-. "$(dirname "$0")/lib/answers.sh"
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
+. "$(dirname "$0")/lib/program.sh"
+notes=$project/paper-notes/files.md
 cat >case.toml <<'TOML'
 accuracy = 1e-2
 membrane.law = "skalak"

@@ -2,12 +2,8 @@
 # A run is killed at fifty random moments, half of them about its end, where its files are written: whatever it leaves
 # is whole, and the same command, given again and again, ends with the files of a run that was never killed.
 #   sh validation/kill.sh path/to/capsule [SEED]
-set -eu
-capsule=$(realpath "$1")
 seed=${2:-2002}
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
+. "$(dirname "$0")/lib/program.sh"
 cat >case.toml <<'TOML'
 accuracy = 1e-3
 capsule.radius = 0.9
@@ -19,10 +15,6 @@ until.x_g = 8
 output.profiles_at_x_g = [-3, -1, 0, 1, 2, 3, 4, 5, 6, 7]
 TOML
 
-fail() {
-  echo "FAILED: $*"
-  exit 1
-}
 now() { date +%s.%N; }
 
 # Without --out, so that runs are computed in one place and shared with another.

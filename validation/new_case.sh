@@ -2,27 +2,17 @@
 # Cases made by `capsule new`, of the example and of another one, are computed and drawn by the target `figures`, by their
 # being there, though one sweeps fewer values and no published number speaks of them.
 #   sh validation/new_case.sh path/to/capsule
-set -eu
-capsule=$(realpath "$1")
-source=$(cd "$(dirname "$0")/.." && pwd)
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
-
-fail() {
-  echo "FAILED: $*"
-  exit 1
-}
+. "$(dirname "$0")/lib/program.sh"
 
 mkdir cases tables figures
-cp "$source/cases/common.toml" cases
-cp "$source/tables/published.csv" tables
-cp "$source/figures/style.gp" figures
-ln -s "$source/cmake" cmake
-cp -r "$source/cases/example" cases
+cp "$project/cases/common.toml" cases
+cp "$project/tables/published.csv" tables
+cp "$project/figures/style.gp" figures
+ln -s "$project/cmake" cmake
+cp -r "$project/cases/example" cases
 sed -i "s|^title.*|&\naccuracy = 1e-2|" cases/example/case.toml
 "$capsule" new first-case
-"$capsule" new my-case --like "$source/cases/fig07-viscosity-sphere"
+"$capsule" new my-case --like "$project/cases/fig07-viscosity-sphere"
 sed -i 's/^"flow.viscosity_ratio" = .*/"flow.viscosity_ratio" = [0.5, 1]/; s/^accuracy = .*/accuracy = 1e-2/' cases/my-case/case.toml
 
 cat >CMakeLists.txt <<CMAKE
@@ -33,10 +23,10 @@ add_executable(capsule IMPORTED)
 set_target_properties(capsule PROPERTIES IMPORTED_LOCATION $capsule)
 include(cmake/cases.cmake)
 CMAKE
-LC_ALL=C cmake -G Ninja -S . -B build >log 2>&1 || { cat log; fail 'cmake'; }
+LC_ALL=C cmake -G Ninja -S . -B build >log 2>&1 || fail 'cmake'
 mkdir -p figures/deleted-case
 : >figures/deleted-case/fig99.md
-LC_ALL=C cmake --build build --target figures >log 2>&1 || { cat log; fail 'the target figures'; }
+LC_ALL=C cmake --build build --target figures >log 2>&1 || fail 'the target figures'
 grep -E '"cases/.*line [0-9]+:|^awk' log && fail 'gnuplot complains'
 
 for figure in fig05a fig07a fig07b fig08; do

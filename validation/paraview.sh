@@ -2,16 +2,12 @@
 # What a run leaves for ParaView, read by VTK's own reader: every file of the collection, its fields, its size and place.
 #   sh validation/paraview.sh path/to/capsule
 # Skipped (77) where Debian's python3-vtk9 is missing.
-set -eu
-capsule=$(realpath "$1")
 python=/usr/bin/python3
 if ! $python -c 'import vtk' 2> /dev/null; then
   echo "skipped: needs the package python3-vtk9"
   exit 77
 fi
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
+. "$(dirname "$0")/lib/program.sh"
 cat > case.toml << 'TOML'
 accuracy = 1e-2
 capsule.radius = 0.7

@@ -1,12 +1,7 @@
 #!/bin/sh
 # A run that is killed, interrupted or stopped by its time limit goes on and ends with the files of one that never was.
 #   sh validation/resume.sh path/to/capsule
-set -eu
-capsule=$(realpath "$1")
-. "$(dirname "$0")/lib/numbers.sh"
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
+. "$(dirname "$0")/lib/program.sh"
 cat >case.toml <<'TOML'
 accuracy = 1e-6 # long enough to be interrupted
 capsule.radius = 0.9
@@ -16,11 +11,6 @@ flow.capillary_number = 0.04
 until.x_g = 11
 output.profiles_at_x_g = [-1, 2]
 TOML
-
-fail() {
-  echo "FAILED: $*"
-  exit 1
-}
 
 "$capsule" run case.toml --out whole
 

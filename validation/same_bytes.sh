@@ -1,11 +1,7 @@
 #!/bin/sh
 # The same runs give the same bytes again, one at a time or two.
 #   sh validation/same_bytes.sh path/to/capsule
-set -eu
-capsule=$(realpath "$1")
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
+. "$(dirname "$0")/lib/program.sh"
 cat >case.toml <<'TOML'
 capsule.radius = 0.9
 membrane.law = "skalak"
@@ -30,10 +26,7 @@ for other in again two; do
       */summary.json) grep -v '_seconds"' "$file" >expected && grep -v '_seconds"' "$other/$name" >got ;;
       *) cp "$file" expected && cp "$other/$name" got ;;
       esac
-      cmp expected got || {
-        echo "FAILED: $other/$name differs"
-        exit 1
-      }
+      cmp expected got || fail "$other/$name differs"
     done
   done
 done

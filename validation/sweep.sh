@@ -3,16 +3,11 @@
 # and nothing computed twice.
 #   sh validation/sweep.sh path/to/capsule
 # Skipped (77) where GNU parallel is missing.
-set -eu
-capsule=$(realpath "$1")
-script=$(realpath "$(dirname "$0")/../sweep/parallel.sh")
 if ! command -v parallel > /dev/null; then
   echo "skipped: needs the package parallel"
   exit 77
 fi
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
+. "$(dirname "$0")/lib/program.sh"
 mkdir build cases
 ln -s "$capsule" build/capsule
 cat > cases/small.toml << 'TOML'
@@ -27,14 +22,9 @@ until.time = 2
 "pore.exit_x" = [4, 5, 0.6]
 TOML
 
-fail() {
-  echo "FAILED: $*"
-  exit 1
-}
-
 # The third leaves the pore: it fails, and the others don't mind.
 status=0
-sh "$script" cases/small.toml 2 > first.log 2>&1 || status=$?
+sh "$project/sweep/parallel.sh" cases/small.toml 2 > first.log 2>&1 || status=$?
 cat first.log
 [ $status -eq 3 ] || fail "ended with $status, not with 3, as a failed run does"
 [ "$(build/capsule run cases/small.toml --list | grep -c reached)" -eq 2 ] || fail 'not both good runs reached their end'
@@ -42,7 +32,7 @@ cat first.log
 
 # Again: nothing is computed.
 before=$(cat results/small/*/run.json)
-sh "$script" cases/small.toml 2 > second.log 2>&1 || true
+sh "$project/sweep/parallel.sh" cases/small.toml 2 > second.log 2>&1 || true
 [ "$(cat results/small/*/run.json)" = "$before" ] || fail 'a finished run was computed again'
 
 # One process alone gives the same bytes.

@@ -2,12 +2,7 @@
 # Two processes at the same case at once: both end well with the same results, and nothing is computed twice; with
 # different input in the same place, what stays there is of one of them.
 #   sh validation/two_at_once.sh path/to/capsule
-set -eu
-capsule=$(realpath "$1")
-. "$(dirname "$0")/lib/numbers.sh"
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
+. "$(dirname "$0")/lib/program.sh"
 mkdir case
 cat >case/case.toml <<'TOML'
 accuracy = 1e-2
@@ -19,11 +14,6 @@ until.x_g = 0
 output.profiles_at_x_g = [-3, -1]
 TOML
 
-fail() {
-  echo "FAILED: $*"
-  cat first.log second.log
-  exit 1
-}
 # at_once FIRST SECOND: both commands, side by side; their exit codes
 at_once() {
   eval "$1" >first.log 2>&1 &

@@ -3,13 +3,8 @@
 #   sh validation/two_builds.sh path/to/capsule
 # Skipped (77) where the other compiler is missing: clang++, or g++ where clang++ has built the first. The second build
 # stays beside the first, so that only what has changed is built again.
-set -eu
-capsule=$(realpath "$1")
+. "$(dirname "$0")/lib/program.sh"
 second=$(dirname "$capsule")/second-build
-source=$(cd "$(dirname "$0")/.." && pwd)
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
 cat >case.toml <<'TOML'
 capsule.radius = 0.9
 membrane.law = "neo-hookean"
@@ -19,10 +14,6 @@ output.profiles_at_x_g = [-1]
 sweep."flow.viscosity_ratio" = [1, 5]
 TOML
 
-fail() {
-  echo "FAILED: $*"
-  exit 1
-}
 "$capsule" run case.toml --jobs 2 --out first
 compiler=clang++
 if grep -q '"compiler": "Clang' first/viscosity_ratio=1/run.json; then compiler=g++; fi
@@ -30,21 +21,21 @@ if ! command -v $compiler >/dev/null; then
   echo "skipped: needs $compiler"
   exit 77
 fi
-cmake -G Ninja -S "$source" -B "$second" -DCMAKE_CXX_COMPILER=$compiler -DCMAKE_BUILD_TYPE=Release \
+cmake -G Ninja -S "$project" -B "$second" -DCMAKE_CXX_COMPILER=$compiler -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_CXX_FLAGS_RELEASE='-O1 -DNDEBUG' >log 2>&1 &&
-  cmake --build "$second" --target capsule -j 2 >log 2>&1 || fail "$(cat log)"
+  cmake --build "$second" --target capsule -j 2 >log 2>&1 || fail "the build by $compiler"
 "$second/capsule" run case.toml --jobs 2 --out second
 
 # One line a number: its name, its value. Those of error_estimate are called "error of ...".
-numbers() {
+values() {
   sed -n '/"error_estimate"/,/^  }/s/^    "\(.*\)": \([^,]*\),*$/error-of-\1 \2/p
           /^  "\(steps\|.*_seconds\)"/d
           s/^  "\([a-z_]*\)": \([-0-9][^,]*\),*$/\1 \2/p' "$1"
 }
 for run in first/*/; do
   run=${run#first/}
-  numbers "first/$run/summary.json" >numbers-1
-  numbers "second/$run/summary.json" >numbers-2
+  values "first/$run/summary.json" >numbers-1
+  values "second/$run/summary.json" >numbers-2
   awk -v run="${run%/}" '
     NR == FNR { first[$1] = $2; next }
     { second[$1] = $2 }

@@ -2,12 +2,7 @@
 # Verdicts by the program: `check` and `ledger` end with 0 where every comparison finds what the table of published values
 # records, be it that they differ, with 1 where one finds another, and with 3 where a run fails and no row expects it.
 #   sh validation/verdicts.sh path/to/capsule
-set -eu
-capsule=$(realpath "$1")
-. "$(dirname "$0")/lib/answers.sh"
-place=$(mktemp -d)
-trap 'rm -rf "$place"' EXIT
-cd "$place"
+. "$(dirname "$0")/lib/program.sh"
 
 says() {
   grep -q -e "$1" log || fail "nothing like '$1' is said"
