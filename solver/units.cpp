@@ -232,7 +232,7 @@ std::variant<Quantity, NoQuantity> read_quantity(const std::string &typed, const
   const std::string unit_part = trimmed(in_ascii(std::string_view(text).substr(digits)));
   if (unit_part.empty())
     return NoQuantity{fmt::format("'{}' has no unit", text), ""};
-  if (unit_part.starts_with(','))
+  if (text[digits] == ',')
     return NoQuantity{fmt::format("'{}' has a comma in its number", text),
                       fmt::format("{}.{}", text.substr(0, digits), text.substr(digits + 1))};
   if (unit_part.substr(std::min(unit_part.find_first_not_of(".x "), unit_part.size())).starts_with("10"))
