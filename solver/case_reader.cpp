@@ -150,7 +150,7 @@ struct Flattener {
       known.push_back(section_of(key.name));
     if (std::ranges::find(known, name) != known.end() || find_key(name) != nullptr)
       return name;
-    const std::string near = nearest_word(name, known);
+    std::string near = nearest_word(name, known);
     if (near.empty())
       return name;
     reader.complain(place, fmt::format("unknown section '{}'", name),
