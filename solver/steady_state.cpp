@@ -264,6 +264,8 @@ private:
         place_.turned_at = leg.text(place_.farthest);
         place_.stretch_at_fold = state_.system->largest_stretch(fold.unknowns);
       }
+      if (now.parameter > place_.farthest) // it has come back
+        place_.turned_at.clear();
       if (now.parameter < first_part ||
           (!place_.turned_at.empty() && state_.system->largest_stretch(now.unknowns) > largest_stretch))
         break;
