@@ -5,7 +5,6 @@
 #include "text.hpp"
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
@@ -18,7 +17,6 @@ constexpr Branch::Steps steps{.first = 0.02, .largest = 0.04, .tolerance = 1e-7}
 constexpr double accuracy_of_folds = 1e-6;
 constexpr int most_nodes_of_a_branch = 300;
 constexpr int most_points = 500;
-constexpr double runaway_stretch = 4; // as in a march
 
 constexpr std::array numbers_of_a_steady_state{"flow.capillary_number", "capsule.radius",
                                                "capsule.aspect_ratio", "membrane.bending_ratio",

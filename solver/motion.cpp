@@ -12,8 +12,7 @@
 namespace capsule {
 namespace {
 
-constexpr int rows_in_time = 200;     // where time tells the progress
-constexpr double runaway_stretch = 4; // a membrane stretched beyond is reported as unbounded
+constexpr int rows_in_time = 200; // where time tells the progress
 constexpr int steps_between_checkpoints = 250;
 // Of time: so many steps of the default that lead on by less are not going to arrive.
 constexpr double shortest_leg = 1e-4;

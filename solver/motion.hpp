@@ -10,6 +10,9 @@
 
 namespace capsule {
 
+// A membrane stretched beyond is said to run away, in a march and on a branch of steady states.
+constexpr double runaway_stretch = 4;
+
 enum class Status { reached, steady, unbounded, failed, interrupted };
 
 // Everything needed to go on.

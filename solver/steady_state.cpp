@@ -3,14 +3,12 @@
 #include "failure.hpp"
 #include "node_density.hpp"
 #include "quadrature.hpp"
-#include "text.hpp"
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <fmt/format.h>
 #include <limits>
 #include <numbers>
-#include <string_view>
 #include <utility>
 
 namespace capsule {
@@ -20,7 +18,6 @@ constexpr double position_tolerance = 1e-9;
 constexpr double mesh_growth = 1.35;
 constexpr int first_nodes = 48;
 constexpr int most_nodes = 420;
-constexpr double largest_stretch = 4; // as in a march: beyond, the membrane is said to run away
 // Where no finer mesh leads on behind a fold, so much tells of that, too, if it has grown since.
 constexpr double large_stretch = 2;
 constexpr double growth_behind_fold = 1.03;
@@ -267,7 +264,7 @@ private:
       if (now.parameter > place_.farthest) // it has come back
         place_.turned_at.clear();
       if (now.parameter < first_part ||
-          (!place_.turned_at.empty() && state_.system->largest_stretch(now.unknowns) > largest_stretch))
+          (!place_.turned_at.empty() && state_.system->largest_stretch(now.unknowns) > runaway_stretch))
         break;
       if (now.parameter >= 1) {
         state_.unknowns = branch.at_parameter(1).unknowns;

@@ -6,7 +6,7 @@
 namespace capsule {
 namespace {
 
-constexpr double runaway_stretch = 8; // folds lie below
+constexpr double most_stretch = 8; // folds lie below
 constexpr int most_steps = 60;
 
 SteadyPoint point_at(const SteadyState &state, const Case &physics, double value) {
@@ -57,7 +57,7 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
     }
     good = now;
     search.state.unknowns = now.unknowns;
-    if (search.end.empty() && search.state.system->largest_stretch(search.state.unknowns) > runaway_stretch)
+    if (search.end.empty() && search.state.system->largest_stretch(search.state.unknowns) > most_stretch)
       search.end = "stretch";
     if (look)
       look(search.state, path.at(now.parameter));
