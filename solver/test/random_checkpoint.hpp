@@ -1,11 +1,31 @@
 #pragma once
 // A checkpoint of random numbers of every magnitude, the same each time.
 #include "motion.hpp"
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
 
 namespace capsule {
+
+// All fields, also those that are added later.
+using RowNumbers = std::array<double, sizeof(SeriesRow) / sizeof(double)>;
+inline constexpr std::array profile_fields{&Profile::S,
+                                           &Profile::x,
+                                           &Profile::r,
+                                           &Profile::stretch_meridional,
+                                           &Profile::stretch_azimuthal,
+                                           &Profile::tension_meridional,
+                                           &Profile::tension_azimuthal,
+                                           &Profile::moment_meridional,
+                                           &Profile::moment_azimuthal,
+                                           &Profile::curvature_meridional,
+                                           &Profile::curvature_azimuthal,
+                                           &Profile::velocity_x,
+                                           &Profile::velocity_r};
+static_assert(sizeof(Profile) == 2 * sizeof(double) + profile_fields.size() * sizeof(Vector));
 
 inline Vector random_vector(Eigen::Index size, std::mt19937 &random) {
   std::normal_distribution<double> normal(0, 1);
@@ -20,18 +40,16 @@ inline Checkpoint random_checkpoint() {
   checkpoint.time = number();
   checkpoint.steps = 1234567;
   checkpoint.position = random_vector(24, random);
-  for (int i = 0; i < 5; ++i)
-    checkpoint.series.push_back({number(), number(), number(), number(), number(), number(), number(),
-                                 number(), number(), number(), number(), number(), number(), number()});
+  for (int i = 0; i < 5; ++i) {
+    RowNumbers row{};
+    std::ranges::generate(row, number);
+    checkpoint.series.push_back(std::bit_cast<SeriesRow>(row));
+  }
   checkpoint.series[2].min_film = std::numeric_limits<double>::infinity();
   checkpoint.series[3].pressure_drop = -0.0;
   for (const Eigen::Index points : {7, 3}) {
     Profile profile{number(), number(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    for (const auto field :
-         {&Profile::S, &Profile::x, &Profile::r, &Profile::stretch_meridional, &Profile::stretch_azimuthal,
-          &Profile::tension_meridional, &Profile::tension_azimuthal, &Profile::moment_meridional,
-          &Profile::moment_azimuthal, &Profile::curvature_meridional, &Profile::curvature_azimuthal,
-          &Profile::velocity_x, &Profile::velocity_r})
+    for (const auto field : profile_fields)
       profile.*field = random_vector(points, random);
     checkpoint.profiles.push_back(profile);
   }
