@@ -5,7 +5,6 @@
 // Every function throws FileError with the path and the system's reason.
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string_view>
 #include <vector>
 

@@ -4,6 +4,7 @@
 #include "failure.hpp"
 #include "paraview.hpp"
 #include "provenance.hpp"
+#include "summary.hpp"
 #include "tables.hpp"
 #include <algorithm>
 #include <fmt/format.h>

@@ -13,7 +13,6 @@
 #include "case_file.hpp"
 #include "checkpoint.hpp"
 #include "motion.hpp"
-#include "summary.hpp"
 #include <filesystem>
 #include <string>
 

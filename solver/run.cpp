@@ -1,6 +1,7 @@
 #include "run.hpp"
 #include "atomic_file.hpp"
 #include "failure.hpp"
+#include "output.hpp"
 #include "progress.hpp"
 #include "resolution.hpp"
 #include "text.hpp"

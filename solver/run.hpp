@@ -3,7 +3,8 @@
 // goes on, the rest is computed, several at a time. A run's files are the same whatever happened on the way,
 // except for run.json and the seconds in summary.json.
 #include "case_file.hpp"
-#include "output.hpp"
+#include "motion.hpp"
+#include "summary.hpp"
 #include <functional>
 #include <optional>
 #include <vector>

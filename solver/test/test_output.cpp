@@ -3,6 +3,7 @@
 #include "case_file.hpp"
 #include "output.hpp"
 #include "random_checkpoint.hpp"
+#include "summary.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -4,7 +4,6 @@
 #include "temporary_directory.hpp"
 #include <atomic>
 #include <boost/test/unit_test.hpp>
-#include <cmath>
 #include <csignal>
 #include <fcntl.h>
 #include <sys/file.h>

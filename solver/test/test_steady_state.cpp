@@ -2,10 +2,8 @@
 #include "dynamics.hpp"
 #include "failure.hpp"
 #include "steady_state.hpp"
-#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 using namespace capsule;
