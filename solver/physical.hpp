@@ -11,11 +11,11 @@ namespace capsule {
 
 struct Case;
 
-// A dimensionless key that physical ones determine, and what its value is called by.
+// A dimensionless key that physical ones determine, its value, and the one of them that a complaint names.
 struct Derived {
   std::string key; // "flow.capillary_number"
   double value = 0;
-  std::string from; // "physical.capsule_radius"
+  std::string from; // "physical.flow_rate"
 };
 
 // Whether the case speaks of physical units at all.
@@ -26,9 +26,10 @@ struct PhysicalComplaint {
   std::vector<std::string> keys;
 };
 std::vector<PhysicalComplaint> physical_complaints(const Case &physics);
-// What follows from the physical keys of a case: with complaints no value, but which keys have one. With a given pressure the flow rate is that of the
-// empty pore: 8 L/R_t of Poiseuille's flow over physical.pore_length, and for the mouth half of what the whole
-// hyperboloid of eq. 1 costs (exact for the hyperboloid; the pore's own mouth is within a few percent of it).
+// What follows from the physical keys of a case; where there are complaints, only which keys have a value. With a given
+// pressure the flow rate is that of the empty pore: 8 L/R_t of Poiseuille's flow over physical.pore_length, and for
+// the mouth half of what the whole hyperboloid of eq. 1 costs (exact for the hyperboloid; the pore's own mouth is
+// within a few percent of it).
 std::vector<Derived> derived_values(const Case &physics);
 
 struct Scales {

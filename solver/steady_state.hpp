@@ -33,10 +33,9 @@ struct SteadyState {
 };
 
 // A case's steady state on a first mesh; `from` is any shape of the same capsule near to it, or one that relaxes to it
-// with equal viscosities. Throws
-// NumericsFailure, of the kind "fold" when there is none because the branch of growing capillary numbers
-// turns back and the membrane runs away behind the fold: the text says where. Any other turn is no statement about
-// the case, and "unresolved".
+// with equal viscosities. Throws NumericsFailure, of the kind "fold" when there is none because the branch of growing
+// capillary numbers turns back and the membrane runs away behind the fold: the text says where. Any other turn is no
+// statement about the case, and "unresolved".
 SteadyState find_steady(const Case &physics, const std::optional<Profile> &from, const Control &control);
 
 struct RefinedState {

@@ -2,8 +2,8 @@
 // The equations of a steady shape on one mesh. In the capsule's frame the membrane is at rest: every node
 // moves with the speed V along the axis, whatever the viscosity ratio, so the flow is that of lambda = 1.
 //   unknowns   2N + 2: the nodes' axial and radial positions, V, and a slack
-//   equations  v_x - V + slack n_x = 0, v_r + slack n_r = 0 at the nodes; centre at x = 0, by the undeformed
-//   area, so that it is the same on any mesh; volume = undeformed
+//   equations  v_x - V + slack n_x = 0, v_r + slack n_r = 0 at the nodes; centre of the undeformed area
+//   at x = 0, the same on any mesh; volume = undeformed
 // The flux of v - V through the membrane vanishes identically: one equation of the nodes follows from the
 // others, and the slack, which comes out as the error of discretisation, makes up for it. A hyperbolic pore is
 // replaced by its tube, infinitely long in effect: the disturbance falls by exp(-4.47) per radius of the tube

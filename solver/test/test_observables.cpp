@@ -1,7 +1,10 @@
 // What a row reports, on shapes and velocities for which it is known.
 #include "observables.hpp"
+#include <array>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 using namespace capsule;
 
@@ -104,8 +107,6 @@ BOOST_AUTO_TEST_CASE(profile_of_a_sphere) {
   BOOST_TEST(profile.tension_meridional.cwiseAbs().maxCoeff() < 1e-9);
 }
 
-BOOST_AUTO_TEST_SUITE_END()
-
 BOOST_AUTO_TEST_CASE(entry_peak_of_a_pulse) {
   // Rises to a peak between two rows, dips, and goes on to a higher plateau with ripples below a thousandth.
   std::vector<SeriesRow> series;
@@ -137,3 +138,5 @@ BOOST_AUTO_TEST_CASE(entry_peak_of_a_pulse) {
   BOOST_TEST(entry_peak(parabola)->pressure_drop == parabola[1].pressure_drop);
   BOOST_TEST(!entry_peak({}));
 }
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,3 +1,4 @@
+// Cases in physical units: groups and scales by hand, and where contradictions are said.
 #include "case_file.hpp"
 #include "failure.hpp"
 #include "physical.hpp"

@@ -1,3 +1,4 @@
+// Quadrature rules and interpolation against exact integrals.
 #include "quadrature.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
