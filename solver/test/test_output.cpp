@@ -1,12 +1,15 @@
 // Files of a run: what they say, whose they are, sharing and replacing.
 #include "atomic_file.hpp"
 #include "case_file.hpp"
+#include "json_file.hpp"
 #include "output.hpp"
 #include "random_checkpoint.hpp"
 #include "summary.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <map>
+#include <numbers>
 
 using namespace capsule;
 namespace fs = std::filesystem;
@@ -67,6 +70,7 @@ BOOST_AUTO_TEST_CASE(results_of_a_run) {
   longer.until.time = 1000;
   BOOST_TEST(!is_finished_input(directory.path, longer));
   BOOST_TEST(!fs::exists(directory.path / "checkpoint.json"));
+  BOOST_TEST(!fs::exists(directory.path / "series_physical.csv"));
 
   const Summary summary = read_summary(directory.path);
   BOOST_TEST(summary.status == "reached");
@@ -95,6 +99,42 @@ BOOST_AUTO_TEST_CASE(results_of_a_run) {
   BOOST_TEST(collection.find("membrane_0001.vtp") != std::string::npos);
   const std::string surface = content_of(directory.path / "membrane_0001.vtp");
   BOOST_TEST(surface.find("NumberOfPoints=\"96\" NumberOfStrips=\"2\"") != std::string::npos);
+}
+
+// By hand: R_t, Q/(pi R_t^2), mu Q/(pi R_t^3), and of the time R_t over the velocity.
+BOOST_AUTO_TEST_CASE(results_in_physical_units) {
+  const TemporaryDirectory directory;
+  Case physics = pore_case();
+  physics.physical.tube_radius = {5e-6};
+  physics.physical.viscosity = {1e-3};
+  physics.physical.flow_rate = {1e-13};
+  physics.physical.shear_modulus = {2e-5};
+  Checkpoint last = random_checkpoint();
+  SeriesRow &end = last.series.back();
+  end.time = 2;
+  end.x_g = 3;
+  end.v_g = 1.5;
+  end.pressure_drop = 4;
+  end.min_film = 0.1;
+  end.length = 1.7;
+  write_results(directory.path, physics, outcome_with(last), {});
+  const double velocity = 1e-13 / (std::numbers::pi * 25e-12);
+  const std::map<std::string, double> by_hand = {
+      {"time [s]", 2 * 5e-6 / velocity}, {"x_g [m]", 15e-6},
+      {"v_g [m/s]", 1.5 * velocity},     {"pressure_drop [Pa]", 4 * 1e-3 * velocity / 5e-6},
+      {"min_film [m]", 0.5e-6},          {"length [m]", 8.5e-6}};
+  const auto lines = lines_of(directory.path / "series_physical.csv");
+  BOOST_REQUIRE(lines.size() == 6u);
+  const auto summary = read_json(directory.path / "summary.json").value().at("physical");
+  std::istringstream names(lines.front()), values(lines.back());
+  std::size_t columns = 0;
+  for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');
+       ++columns) {
+    BOOST_TEST(std::stod(value) == by_hand.at(name), boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(summary.at(name).get<double>() == std::stod(value));
+  }
+  BOOST_TEST(columns == by_hand.size());
+  BOOST_TEST(summary.at("tension scale [N/m]").get<double>() == 2e-5);
 }
 
 BOOST_AUTO_TEST_CASE(what_another_input_has_left_is_named) {
