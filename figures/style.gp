@@ -112,3 +112,7 @@ do for [format in "svg png"] {
   load folder."/".case."/figure.gp"
   unset output
 }
+# A caption with a number that is not there.
+set print "-"
+nameless = system("grep -lwiE -- '-?nan' ".out."/".case."/*.md")
+if (nameless ne "") { print "warning: a number is missing in ".nameless }

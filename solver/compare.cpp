@@ -39,6 +39,7 @@ constexpr std::array own_columns{Column{"id", &Expectation::id},
                                  Column{"allowed", &Expectation::allowed},
                                  Column{"reason", &Expectation::reason}};
 constexpr std::array kinds{"number", "bound", "ratio", "order", "behaviour", "picture"};
+constexpr std::array statuses{"reached", "steady", "unbounded", "failed"};
 constexpr std::array verdicts{"agrees", "differs", "not decidable"};
 
 // What is wrong with the published value and the allowed distance, or nothing once they are taken.
@@ -46,7 +47,11 @@ std::string take_numbers(Expectation &row) {
   using Form = Expectation::Form;
   if (row.quantity == "status") {
     row.form = Form::status;
-    return "";
+    const bool known =
+        std::ranges::find(statuses, row.published) != statuses.end() || row.published.starts_with("failed:");
+    return known ? ""
+                 : fmt::format("the status '{}' is none of '{}', 'failed:...'", row.published,
+                               fmt::join(statuses, "', '"));
   }
   if (row.recorded == Verdict::not_decidable)
     return "";
@@ -116,7 +121,10 @@ std::string status_of(const Summary &summary) {
 // The rows of a file with these columns; what has no column is taken from `blank`.
 std::vector<Expectation> read_table(const fs::path &table, std::span<const Column> columns,
                                     const Expectation &blank) {
-  const std::vector<std::string> lines = read_lines(table);
+  std::vector<std::string> lines = read_lines(table);
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; // as spreadsheets write it
+  if (!lines.empty() && lines[0].starts_with(byte_order_mark))
+    lines[0].erase(0, byte_order_mark.size());
   std::string errors;
   const auto complain = [&](std::size_t line, const std::string &message) {
     errors += fmt::format("{}:{}:1: error: {}\n", table.string(), line + 1, message);
@@ -138,6 +146,8 @@ std::vector<Expectation> read_table(const fs::path &table, std::span<const Colum
       row.*columns[k].entry = trimmed(fields[k]);
     if (const std::string mistake = mistake_of(row); !mistake.empty())
       complain(i, mistake);
+    if (std::ranges::find(rows, row.id, &Expectation::id) != rows.end())
+      complain(i, fmt::format("the id '{}' is there already", row.id));
     rows.push_back(std::move(row));
   }
   if (!errors.empty())

@@ -131,8 +131,9 @@ std::vector<RunResult> compute_case(const CaseInput &input, const RunOptions &op
                  result.summary->message);
   const auto unfinished = std::ranges::count_if(results, is_interrupted);
   if (unfinished > 0)
-    fmt::print(stderr, "interrupted: {} of {} to finish; the same command goes on from the last checkpoint\n",
-               unfinished, counted(results.size(), "run"));
+    fmt::print(stderr, "interrupted: {} of {} to finish; the same command {}\n", unfinished,
+               counted(results.size(), "run"),
+               options.task.motion ? "goes on from the last checkpoint" : "begins with them again");
   return results;
 }
 

@@ -32,10 +32,20 @@ const Key *key_named(const std::string &name) {
   return found == keys().end() ? nullptr : &*found;
 }
 
-bool is_value(const Value &value, const std::string &text) {
-  if (const auto *word = std::get_if<std::string>(&value))
+// A quantity is the same in other units, or as the number in SI units by which runs are named.
+bool has_value(const Case &physics, const Key &key, const std::string &text) {
+  if (const auto *measured = std::get_if<Measured>(&key.field)) {
+    const auto read = read_quantity(text, measured->dimension);
+    const auto *quantity = std::get_if<Quantity>(&read);
+    const auto si = quantity != nullptr ? quantity->si : to_number(text);
+    return si && *si == measured->member.of(physics).si;
+  }
+  const auto value = get_value(key, physics);
+  if (!value)
+    return false;
+  if (const auto *word = std::get_if<std::string>(&*value))
     return *word == text;
-  return to_number(value_text(value)) == to_number(text);
+  return to_number(value_text(*value)) == to_number(text);
 }
 
 std::optional<double> key_value(const std::string &name, const Case &physics) {
@@ -168,9 +178,9 @@ Selector::Selector(const std::string &text) {
 
 bool Selector::selects(const Case &physics) const {
   return std::ranges::all_of(wanted_, [&](const auto &wanted) {
-    const auto value = get_value(*key_named(wanted.first), physics);
-    return value && std::ranges::any_of(wanted.second,
-                                        [&](const std::string &text) { return is_value(*value, text); });
+    const Key &key = *key_named(wanted.first);
+    return std::ranges::any_of(wanted.second,
+                               [&](const std::string &text) { return has_value(physics, key, text); });
   });
 }
 

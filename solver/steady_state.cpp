@@ -398,15 +398,22 @@ SteadyState near_profile(const Case &physics, const Profile &profile, const Cont
   return state;
 }
 
-std::map<std::string, double> differences(const SeriesRow &a, const SeriesRow &b) {
-  return {{"v_g", std::abs(a.v_g - b.v_g)},
-          {"pressure_drop", std::abs(a.pressure_drop - b.pressure_drop)},
-          {"max_stretch", std::abs(a.max_stretch - b.max_stretch)},
-          {"front_stretch", std::abs(a.front_stretch - b.front_stretch)},
-          {"min_film", std::abs(a.min_film - b.min_film)},
-          {"length", std::abs(a.length - b.length)},
-          {"deformation", std::abs(a.deformation - b.deformation)},
-          {"volume_change", std::abs(a.volume_change)}};
+// Errors from a mesh and a coarser one: what they differ by, and the quadrature's error, which they may have in
+// common and of which the two pressure drops tell.
+std::map<std::string, double> errors_of(const SeriesRow &fine, const SeriesRow &coarse) {
+  const double quadrature = std::abs(fine.pressure_drop - fine.pressure_drop_reciprocal);
+  const double relative = quadrature / std::max(std::abs(fine.pressure_drop), 1.0);
+  const auto error = [&](double SeriesRow::*quantity, double common) {
+    return std::abs(fine.*quantity - coarse.*quantity) + common;
+  };
+  return {{"v_g", error(&SeriesRow::v_g, relative)},
+          {"pressure_drop", error(&SeriesRow::pressure_drop, quadrature)},
+          {"max_stretch", error(&SeriesRow::max_stretch, relative)},
+          {"front_stretch", error(&SeriesRow::front_stretch, relative)},
+          {"min_film", error(&SeriesRow::min_film, relative)},
+          {"length", error(&SeriesRow::length, relative)},
+          {"deformation", error(&SeriesRow::deformation, relative)},
+          {"volume_change", std::abs(fine.volume_change)}};
 }
 
 // Whether two meshes agree: in what all of the membrane makes to a tenth of the accuracy; the stretches, which
@@ -480,7 +487,7 @@ RefinedState refine(const Case &physics, const SteadyState &state, const Control
   SeriesRow row = portray(refined.state).row;
   if (given || finer_mesh(nodes) > most_nodes) { // the finest, of which a coarser one tells the error
     const SeriesRow coarse = portray(on_mesh(physics, std::max(3, 3 * nodes / 4), refined.state)).row;
-    refined.error_estimate = differences(row, coarse);
+    refined.error_estimate = errors_of(row, coarse);
     if (!given && !agree(row, coarse, physics.accuracy))
       refined.warning = poorly_resolved(nodes);
     return refined;
@@ -491,7 +498,7 @@ RefinedState refine(const Case &physics, const SteadyState &state, const Control
     refined.state = on_mesh(physics, nodes, refined.state);
     const SeriesRow before = row;
     row = portray(refined.state).row;
-    refined.error_estimate = differences(row, before);
+    refined.error_estimate = errors_of(row, before);
     if (agree(row, before, physics.accuracy))
       return refined;
     if (finer_mesh(nodes) > most_nodes) {

@@ -40,7 +40,7 @@ SteadyState find_steady(const Case &physics, const std::optional<Profile> &from,
 
 struct RefinedState {
   SteadyState state;
-  std::map<std::string, double> error_estimate; // differences from the mesh before
+  std::map<std::string, double> error_estimate; // by the mesh before and the two pressure drops
   std::string warning;                          // when they are larger than asked for
 };
 // The same on finer and finer meshes, until the last two agree to the accuracy asked for, in the pressure drop

@@ -177,6 +177,9 @@ BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
   check_contains(mistake("a,T,x,,v_g,high,1 %,"), "the value 'high' is not a number");
   check_contains(mistake("a,T,x,,v_g,<high,,"), "the value '<high' is not a number");
   check_contains(mistake("a,T,x,,v_g,<1,0.1,"), "a bound allows no distance");
+  check_contains(mistake("a,T,x,,status,done,,"), "the status 'done' is none of 'reached', 'steady'");
+  check_contains(mistake_in(header + plain("a,T,x,,v_g,1,1 %,") + plain("a,T,x,,x_g,1,1 %,")),
+                 "published.csv:3:1: error: the id 'a' is there already");
   check_contains(mistake("a,T,x,,v_g,1,,"), "allowed '' is not a positive number");
   check_contains(mistake("a,T,x,,v_g,1,-1 %,"), "allowed '-1 %' is not");
   check_contains(mistake("a,T,x,,v_g,0,1 %,"), "nothing can be relative");
@@ -193,6 +196,7 @@ BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
   for (const char *place : {":1:1: error: ", ":2:1: error: ", ":3:1: error: ", ":4:1: error: "})
     check_contains(all, place);
   BOOST_TEST(mistake_in(header + "a,T,fig,,v_g,1,1 %,,,,,,agrees,\r\n") == "no error");
+  BOOST_TEST(mistake_in("\xEF\xBB\xBF" + header) == "no error"); // a spreadsheet's
 }
 
 // A case directory may say itself what it expects, in fewer columns; other files in it have none.

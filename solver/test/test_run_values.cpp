@@ -56,6 +56,16 @@ BOOST_FIXTURE_TEST_CASE(of_the_end_and_of_the_input, Project) {
   BOOST_TEST(nothing("law") == "no value"); // no number
 }
 
+// A run with a physical quantity goes by any spelling of it, and by its name.
+BOOST_AUTO_TEST_CASE(quantities_choose_runs) {
+  Case physics;
+  physics.physical.flow_rate.si = 1e-14;
+  for (const char *text : {"flow_rate=10 pl/s", "physical.flow_rate=0.01 nL/s", "flow_rate=1e-14"})
+    BOOST_TEST(Selector(text).selects(physics), text);
+  for (const char *text : {"flow_rate=10 nl/s", "flow_rate=10 pl", "flow_rate=1e-13", "viscosity=1 Pa.s"})
+    BOOST_TEST(!Selector(text).selects(physics), text);
+}
+
 BOOST_FIXTURE_TEST_CASE(along_the_way, Project) {
   BOOST_TEST(value("x_g@time=15") == 2);
   BOOST_TEST(value("x_g@time=10") == -2);
