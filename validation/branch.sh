@@ -53,8 +53,9 @@ said=$(sed -n "s/.*fold at $key = \([0-9.]*\);.*/\1/p" log)
 near "$said" "$fold" "$(awk -v f="$fold" 'BEGIN { print 1e-4 * f }')" 'the fold'
 ends 0 steady case.toml --out below --set $key="$(awk -v f="$fold" 'BEGIN { print 0.998 * f }')"
 
-# From a march through the whole pore, and from what is no profile.
-ends 0 run case.toml --out march
+# From a march through the whole pore, and from what is no profile. Of a loose accuracy, which velocities at the end keep
+# in any build: those of a march to 1e-3 may be off by 1.5e-3 for the length of a few steps.
+ends 0 run case.toml --out march --set accuracy=1e-2
 grep -q 'not steady yet' log && fail 'the end of the march is not taken for steady'
 ends 0 steady case.toml --out from --from march
 for quantity in v_g pressure_drop max_stretch min_film; do
@@ -63,7 +64,7 @@ for quantity in v_g pressure_drop max_stretch min_film; do
 done
 ends 0 steady case.toml --out from --from march
 grep -q 'computed before' log || fail 'from the same march it is computed again'
-ends 0 run case.toml --out march --set until.x_g=2
+ends 0 run case.toml --out march --set accuracy=1e-2 --set until.x_g=2
 grep -q 'not steady yet: the membrane still moves with 0\.[0-9]* relative' log || fail 'an early end is taken for steady'
 ends 0 steady case.toml --out from --from march
 grep -q 'computed before' log && fail 'from another march nothing is computed'
