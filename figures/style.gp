@@ -114,5 +114,5 @@ do for [format in "svg png"] {
 }
 # A caption with a number that is not there.
 set print "-"
-nameless = system("grep -lwiE -- '-?nan' ".out."/".case."/*.md")
-if (nameless ne "") { print "warning: a number is missing in ".nameless }
+incomplete = system("grep -lwiE -- '-?nan' ".out."/".case."/*.md")
+if (incomplete ne "") { print "warning: a number is missing in ".incomplete }

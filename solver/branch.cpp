@@ -127,12 +127,11 @@ private:
     const int more = finer_mesh(nodes());
     if (!may_refine_ || more > most_nodes_of_a_branch)
       return false;
-    const auto finer = system_on_mesh(path_.at(point.parameter), more, {state_.system, point.unknowns});
-    const auto moved = [&](const Vector &unknowns) { return moved_to(*finer, *state_.system, unknowns); };
+    const SteadyState guess = moved_to_mesh(path_.at(point.parameter), more, {state_.system, point.unknowns});
     try {
-      branch_ = std::make_unique<Branch>(*finer, cases(), BranchPoint{moved(point.unknowns), point.parameter},
-                                         moved(tangent), steps);
-      state_ = {finer, branch_->point().unknowns};
+      branch_ = std::make_unique<Branch>(*guess.system, cases(), BranchPoint{guess.unknowns, point.parameter},
+                                         moved_to(*guess.system, *state_.system, tangent), steps);
+      state_ = {guess.system, branch_->point().unknowns};
     } catch (const NumericsFailure &) {
       may_refine_ = false;
     }

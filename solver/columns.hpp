@@ -2,7 +2,9 @@
 // The columns of a run's tables, each declared once: its name and where its values are.
 #include "observables.hpp"
 #include "physical.hpp"
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace capsule {
 
@@ -30,18 +32,17 @@ inline constexpr std::array series_columns{
     SeriesColumn{"roughness", &SeriesRow::roughness},
 };
 
+// The one of this name; none is an error of compilation.
+consteval SeriesColumn series_column(std::string_view name) {
+  return *std::ranges::find(series_columns, name, &SeriesColumn::name);
+}
+
 // Of branch.csv, and of folds.
 inline constexpr std::array branch_columns{
-    SeriesColumn{"v_g", &SeriesRow::v_g},
-    SeriesColumn{"pressure_drop", &SeriesRow::pressure_drop},
-    SeriesColumn{"max_stretch", &SeriesRow::max_stretch},
-    SeriesColumn{"min_film", &SeriesRow::min_film},
-    SeriesColumn{"front_stretch", &SeriesRow::front_stretch},
-    SeriesColumn{"length", &SeriesRow::length},
-    SeriesColumn{"deformation", &SeriesRow::deformation},
-    SeriesColumn{"volume_change", &SeriesRow::volume_change},
-    SeriesColumn{"area_change", &SeriesRow::area_change},
-    SeriesColumn{"dents", &SeriesRow::dents},
+    series_column("v_g"),         series_column("pressure_drop"), series_column("max_stretch"),
+    series_column("min_film"),    series_column("front_stretch"), series_column("length"),
+    series_column("deformation"), series_column("volume_change"), series_column("area_change"),
+    series_column("dents"),
 };
 
 // Of profiles.csv.

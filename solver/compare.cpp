@@ -1,5 +1,6 @@
 #include "compare.hpp"
 #include "failure.hpp"
+#include "located_text.hpp"
 #include "text.hpp"
 #include <algorithm>
 #include <array>
@@ -122,9 +123,8 @@ std::string status_of(const Summary &summary) {
 std::vector<Expectation> read_table(const fs::path &table, std::span<const Column> columns,
                                     const Expectation &blank) {
   std::vector<std::string> lines = read_lines(table);
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; // as spreadsheets write it
-  if (!lines.empty() && lines[0].starts_with(byte_order_mark))
-    lines[0].erase(0, byte_order_mark.size());
+  if (!lines.empty()) // spreadsheets write a byte order mark
+    lines[0] = encoded(characters_of(lines[0]));
   std::string errors;
   const auto complain = [&](std::size_t line, const std::string &message) {
     errors += fmt::format("{}:{}:1: error: {}\n", table.string(), line + 1, message);

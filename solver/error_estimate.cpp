@@ -1,4 +1,5 @@
 #include "error_estimate.hpp"
+#include "columns.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,22 +15,18 @@ double safety_of(const std::string &quantity, Scheme scheme) {
   return safety * (of_the_way ? 1 : 2) * (scheme == Scheme::euler ? 9 : 1);
 }
 
-struct Estimated {
-  const char *name;
-  double SeriesRow::*value;
-};
 constexpr std::array estimated{
-    Estimated{"time", &SeriesRow::time},
-    Estimated{"x_g", &SeriesRow::x_g},
-    Estimated{"v_g", &SeriesRow::v_g},
-    Estimated{"pressure_drop", &SeriesRow::pressure_drop},
-    Estimated{"max_stretch", &SeriesRow::max_stretch},
-    Estimated{"front_stretch", &SeriesRow::front_stretch},
-    Estimated{"min_film", &SeriesRow::min_film},
-    Estimated{"length", &SeriesRow::length},
-    Estimated{"deformation", &SeriesRow::deformation},
-    Estimated{"max_axial_residual", &SeriesRow::max_axial_residual},
-    Estimated{"max_radial_velocity", &SeriesRow::max_radial_velocity},
+    series_column("time"),
+    series_column("x_g"),
+    series_column("v_g"),
+    series_column("pressure_drop"),
+    series_column("max_stretch"),
+    series_column("front_stretch"),
+    series_column("min_film"),
+    series_column("length"),
+    series_column("deformation"),
+    series_column("max_axial_residual"),
+    series_column("max_radial_velocity"),
 };
 
 // Rows of both marches at the same x_g, or at the same time where time tells the end.
@@ -100,7 +97,7 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
   };
   const std::vector<RowPair> pairs = pair_rows(fine, coarse, place);
   for (const auto &[row, other] : pairs) {
-    for (const Estimated &quantity : estimated) {
+    for (const SeriesColumn &quantity : estimated) {
       const double difference = quantity.value == &SeriesRow::deformation
                                     ? deformation_difference(*row, *other)
                                     : row->*quantity.value - other->*quantity.value;

@@ -352,8 +352,8 @@ int list_keys() {
 int create(const std::string &id, const std::string &like) {
   const fs::path directory = new_case(".", id, like);
   std::set<std::string> files;
-  for (const auto &entry : fs::directory_iterator(directory))
-    files.insert(entry.path().filename());
+  for (const fs::path &file : files_in(directory, [](const fs::path &) { return true; }))
+    files.insert(file.filename());
   fmt::print("{}: {}\n", directory.string(), fmt::join(files, " "));
   return done;
 }

@@ -51,7 +51,7 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
                    const Effort &effort, const Task &task) {
   const std::vector<Profile> &profiles = outcome.last.profiles;
   write_atomically(directory / "series.csv", series_csv(outcome.last.series));
-  if (has_physical(physics) && outcome.along.empty()) // along a branch the scales are no longer the case's
+  if (in_physical_units(physics, outcome))
     write_atomically(directory / "series_physical.csv", physical_series_csv(physics, outcome.last.series));
   write_atomically(directory / "profiles.csv", profiles_csv(profiles));
   if (!outcome.along.empty())

@@ -102,6 +102,9 @@ std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, const Vector &
                                         node_angle);
 }
 
+namespace {
+
+// With so many nodes where the shape of a state near by needs them.
 std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, const SteadyState &state) {
   constexpr double most_turning = 0.5; // of the tangent in a panel: in a fold kernels vary with it
   const Membrane &membrane = state.system->membrane();
@@ -115,13 +118,14 @@ std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, con
   return std::make_shared<SteadySystem>(physics, resolution, angles);
 }
 
-namespace {
+} // namespace
 
-// A guess.
 SteadyState moved_to_mesh(const Case &physics, int nodes, const SteadyState &state) {
   const auto system = system_on_mesh(physics, nodes, state);
   return {system, moved_to(*system, *state.system, state.unknowns)};
 }
+
+namespace {
 
 SteadyState straight_to_mesh(const Case &physics, int nodes, const SteadyState &state) {
   SteadyState moved = moved_to_mesh(physics, nodes, state);

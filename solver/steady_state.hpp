@@ -58,8 +58,8 @@ SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
 
 // The equations of a case with a node at each of these angles.
 std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, const Vector &node_angle);
-// ... with so many nodes where the shape of a state near by needs them.
-std::shared_ptr<SteadySystem> system_on_mesh(const Case &physics, int nodes, const SteadyState &state);
+// A state near by, as a guess on so many nodes where its shape needs them.
+SteadyState moved_to_mesh(const Case &physics, int nodes, const SteadyState &state);
 // The state on such a mesh. Throws NumericsFailure("unresolved").
 SteadyState on_mesh(const Case &physics, int nodes, const SteadyState &state);
 // Unknowns, or changes of them, on another system's nodes; what follows the positions stays: speed, slack, and of a

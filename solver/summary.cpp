@@ -4,6 +4,7 @@
 #include "columns.hpp"
 #include "json_file.hpp"
 #include "resolution.hpp"
+#include "tables.hpp"
 #include <cerrno>
 #include <cmath>
 #include <fmt/format.h>
@@ -79,7 +80,7 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   const auto peak = moved ? entry_peak(series) : std::nullopt;
   put("peak_pressure_drop", peak ? std::optional(peak->pressure_drop) : std::nullopt);
   put("x_g_at_peak", peak ? std::optional(peak->x_g) : std::nullopt);
-  if (has_physical(physics) && outcome.along.empty())
+  if (in_physical_units(physics, outcome))
     json["physical"] = physical_json(physics, json);
   for (const auto &[quantity, value] : outcome.further)
     json[quantity] = finite_or_null(value);

@@ -19,45 +19,49 @@ std::string profiles_header() {
   return text;
 }
 
-} // namespace
+struct ScaledColumn {
+  std::string head;
+  double SeriesRow::*value;
+  double scale;
+};
 
-std::string series_csv(const std::vector<SeriesRow> &series) {
+std::string scaled_csv(const std::vector<ScaledColumn> &columns, const std::vector<SeriesRow> &series) {
   std::string text;
-  for (const SeriesColumn &column : series_columns)
-    text += fmt::format("{}{}", text.empty() ? "" : ",", column.name);
+  for (const ScaledColumn &column : columns)
+    text += fmt::format("{}{}", text.empty() ? "" : ",", column.head);
   for (const SeriesRow &row : series) {
     char separator = '\n';
-    for (const SeriesColumn &column : series_columns) {
-      text += separator + number_text(row.*column.value);
+    for (const ScaledColumn &column : columns) {
+      text += separator + number_text(row.*column.value * column.scale);
       separator = ',';
     }
   }
   return text + "\n";
 }
 
+} // namespace
+
+std::string series_csv(const std::vector<SeriesRow> &series) {
+  std::vector<ScaledColumn> columns;
+  for (const SeriesColumn &column : series_columns)
+    columns.push_back({column.name, column.value, 1});
+  return scaled_csv(columns, series);
+}
+
+bool in_physical_units(const Case &physics, const Outcome &outcome) {
+  return has_physical(physics) && outcome.along.empty();
+}
+
 std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow> &series) {
   const Scales scales = physical_scales(physics);
-  struct Scaled {
-    double SeriesRow::*value;
-    double scale;
-  };
-  std::vector<Scaled> columns;
-  std::string text;
+  std::vector<ScaledColumn> columns;
   for (const PhysicalColumn &column : physical_columns)
     if (const auto *const source =
             std::ranges::find(series_columns, std::string_view(column.name), &SeriesColumn::name);
-        source != series_columns.end()) {
-      text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column.name, unit_text(column.of));
-      columns.push_back({source->value, scales.*column.scale});
-    }
-  for (const SeriesRow &row : series) {
-    char separator = '\n';
-    for (const Scaled &column : columns) {
-      text += separator + number_text(row.*column.value * column.scale);
-      separator = ',';
-    }
-  }
-  return text + "\n";
+        source != series_columns.end())
+      columns.push_back(
+          {fmt::format("{} [{}]", column.name, unit_text(column.of)), source->value, scales.*column.scale});
+  return scaled_csv(columns, series);
 }
 
 std::string branch_csv(const Outcome &outcome) {

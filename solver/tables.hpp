@@ -11,6 +11,8 @@
 namespace capsule {
 
 std::string series_csv(const std::vector<SeriesRow> &series);
+// Whether there are values in SI units: of a case in physical units, but not along a branch, where the scales change.
+bool in_physical_units(const Case &physics, const Outcome &outcome);
 // In SI units, the unit in each column's head.
 std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow> &series);
 // Its first column is the key that varies, its last the growth rate.
