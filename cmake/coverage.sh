@@ -19,7 +19,7 @@ find "$build/CMakeFiles/solver.dir" "$build/CMakeFiles/capsule.dir" "$build"/CMa
 mv ./*.gcov counts
 awk -F: -v not_run="$build/not-run.txt" '
   $2 + 0 == 0 { if ($3 == "Source") source = $4; next }
-  source !~ /\/solver\/[^\/]*\.[ch]pp$/ { next }
+  source !~ /\/solver\/[a-z]*\/[^\/]*\.[ch]pp$/ || source ~ /\/solver\/(test|tool|benchmark)\// { next }
   { gsub(/ /, "", $1); sub(/^.*\/solver\//, "", source) ; source = "/solver/" source }
   $1 == "-" { next }
   { line = source ":" $2 + 0; lines[line] = source; if ($1 + 0 > 0) run[line] = 1 }

@@ -10,8 +10,8 @@ for file in cases/*/*.toml cases/common.toml; do
 done
 # Sections and names of the keys, and units, as words to try.
 {
-  sed -n 's/^ *{"\([a-z_]*\)\.\([a-z_]*\)",.*/"\1"\n"\2"/p' solver/case_keys.cpp
-  sed -n 's/.*{"\([a-zA-Z]\+\)", -\?[0-9].*/"\1"/p' solver/units.cpp
+  sed -n 's/^ *{"\([a-z_]*\)\.\([a-z_]*\)",.*/"\1"\n"\2"/p' solver/case/key.cpp
+  sed -n 's/.*{"\([a-zA-Z]\+\)", -\?[0-9].*/"\1"/p' solver/case/units.cpp
 } | sort -u >build-fuzz/words.dict
 for what in case_file set; do
   echo "fuzz_$what:"

@@ -1,7 +1,7 @@
 #include "reading.hpp"
-#include "case_file.hpp"
-#include "failure.hpp"
-#include "text.hpp"
+#include "base/failure.hpp"
+#include "base/text.hpp"
+#include "case/case_file.hpp"
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>

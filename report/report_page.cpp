@@ -3,10 +3,10 @@
 // PAGE is written; every DIRECTORY is a case or a study, cases/<id> or validation/<id>, whose figures, comparison and
 // results are taken from figures/<id>/, tables/<id>.csv and results/<id>/, as `make figures` and `make atlas` leave
 // them. What a directory has not computed yet is left out. The page's frame, style and player lie beside this file.
-#include "atomic_file.hpp"
-#include "case_file.hpp"
-#include "run_values.hpp"
-#include "text.hpp"
+#include "base/atomic_file.hpp"
+#include "base/text.hpp"
+#include "case/case_file.hpp"
+#include "compare/run_values.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -7,7 +7,7 @@ failures=0
 for name in $(grep -o '`[A-Za-z_:.]*`' paper-notes/equations.md | tr -d '`' | sed 's/::/ /g' | tr ' ' '\n' | sort -u); do
   case $name in
     *...) name=${name%...}; grep -rqE "\b$name" solver && continue ;;
-    *.*) [ -e "solver/$name" ] || [ -e "paper-notes/$name" ] || grep -rqF "\"$name\"" solver && continue ;;
+    *.*) [ -n "$(find solver -name "$name")" ] || [ -e "paper-notes/$name" ] || grep -rqF "\"$name\"" solver && continue ;;
     *) grep -rqwF "$name" solver && continue ;;
   esac
   echo "paper-notes/equations.md speaks of '$name', which is not in solver/"

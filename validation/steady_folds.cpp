@@ -1,5 +1,5 @@
 #include "steady_folds.hpp"
-#include "failure.hpp"
+#include "base/failure.hpp"
 #include <cmath>
 #include <fmt/format.h>
 

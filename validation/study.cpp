@@ -1,8 +1,8 @@
 #include "study.hpp"
-#include "failure.hpp"
-#include "motion.hpp"
-#include "run_values.hpp"
-#include "workers.hpp"
+#include "base/failure.hpp"
+#include "compare/run_values.hpp"
+#include "motion/motion.hpp"
+#include "program/workers.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <cmath>

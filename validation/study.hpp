@@ -1,7 +1,7 @@
 #pragma once
 // What the studies of validation/ share: runs side by side, and histories compared.
-#include "atomic_file.hpp"
-#include "run.hpp"
+#include "base/atomic_file.hpp"
+#include "program/case_runs.hpp"
 #include <functional>
 #include <map>
 #include <string>

@@ -1,6 +1,6 @@
 // Time per ring of every kernel and instruction set that runs here, for a row of the paper's size and for one
 // panel.
-#include "ring_kernel.hpp"
+#include "integrals/ring_kernel.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
 // Time of what a step is made of, for Table 1's capsule at the mouth: assembly, velocity, Jacobian and its factors, a
 // whole step of each preset.
-#include "dynamics.hpp"
-#include "flow_system.hpp"
-#include "resolution.hpp"
+#include "flow/flow.hpp"
+#include "motion/dynamics.hpp"
+#include "scene/resolution.hpp"
 
 #include <benchmark/benchmark.h>
 

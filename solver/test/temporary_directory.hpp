@@ -1,7 +1,7 @@
 #pragma once
 // A directory for the files of one test; removed with everything in it. In memory where there is such a
 // place, because the files of a run are synced to the disk one by one.
-#include "failure.hpp"
+#include "base/failure.hpp"
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

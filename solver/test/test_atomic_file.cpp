@@ -1,5 +1,5 @@
 // Files whole or not there: writers that are killed, at once, and without room.
-#include "atomic_file.hpp"
+#include "base/atomic_file.hpp"
 #include "temporary_directory.hpp"
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Branches of steady states: both ends, the fold between, and what cannot be asked for.
-#include "branch.hpp"
-#include "failure.hpp"
-#include "steady_state.hpp"
+#include "base/failure.hpp"
+#include "steady/branch.hpp"
+#include "steady/steady_state.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 

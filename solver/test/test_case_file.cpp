@@ -1,10 +1,10 @@
 // Reading case files: what is accepted, what follows from it, and the located message for each kind of
 // mistake.
-#include "case_file.hpp"
-#include "case_keys.hpp"
-#include "failure.hpp"
+#include "base/failure.hpp"
+#include "base/text.hpp"
+#include "case/case_file.hpp"
+#include "case/key.hpp"
 #include "temporary_directory.hpp"
-#include "text.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cstring>
 #include <set>

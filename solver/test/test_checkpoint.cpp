@@ -1,5 +1,5 @@
 // Checkpoints come back exactly, and damaged ones are named.
-#include "checkpoint.hpp"
+#include "output/checkpoint.hpp"
 #include "random_checkpoint.hpp"
 #include "temporary_directory.hpp"
 #include <array>

@@ -1,7 +1,7 @@
 // The equations of motion: both presets move the same capsule alike, and what is no capsule in the pore is said to be none.
-#include "dynamics.hpp"
-#include "failure.hpp"
-#include "observables.hpp"
+#include "base/failure.hpp"
+#include "motion/dynamics.hpp"
+#include "observe/gauge.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 

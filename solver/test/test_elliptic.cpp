@@ -1,5 +1,5 @@
 // Elliptic integrals against Carlson's forms in 50 digits, and against their definition.
-#include "elliptic.hpp"
+#include "integrals/elliptic.hpp"
 
 #include <boost/math/special_functions/ellint_rd.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>

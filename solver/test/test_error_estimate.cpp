@@ -1,5 +1,5 @@
 // Estimates from made-up series whose differences, peaks and deformations are known.
-#include "error_estimate.hpp"
+#include "motion/error_estimate.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 

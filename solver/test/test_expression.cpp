@@ -1,6 +1,6 @@
 // Expressions: arithmetic with known results, references, lists, mistakes.
-#include "expression.hpp"
-#include "failure.hpp"
+#include "base/failure.hpp"
+#include "compare/expression.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Layer potentials against integrals that are known in closed form.
-#include "layer_potential.hpp"
-#include "meridian.hpp"
+#include "geometry/meridian.hpp"
+#include "integrals/layer_potential.hpp"
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 

@@ -1,5 +1,5 @@
 // The membrane's strain, energy and load against exact shapes, virtual work and an independent form of eq. 7.
-#include "membrane.hpp"
+#include "membrane/membrane.hpp"
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The bases of the meridian on functions whose derivatives are known.
-#include "meridian.hpp"
+#include "geometry/meridian.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
 // Marches against small-deformation theory, symmetry of interruption, and failures that must be told apart.
-#include "failure.hpp"
-#include "motion.hpp"
-#include "resolution.hpp"
-#include "steady_state.hpp"
+#include "base/failure.hpp"
+#include "motion/motion.hpp"
+#include "scene/resolution.hpp"
+#include "steady/steady_state.hpp"
 #include <array>
 #include <bit>
 #include <boost/test/unit_test.hpp>

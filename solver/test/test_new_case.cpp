@@ -1,7 +1,7 @@
 // A new case directory from another: copied whole, refused where it would overwrite or could not be read.
-#include "case_file.hpp"
-#include "failure.hpp"
-#include "new_case.hpp"
+#include "base/failure.hpp"
+#include "case/case_file.hpp"
+#include "case/new_case.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 

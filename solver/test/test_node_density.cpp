@@ -1,5 +1,5 @@
 // Nodes for a shape: the same points of the membrane wherever the nodes lie, and fewer nodes for a fold.
-#include "node_density.hpp"
+#include "geometry/node_density.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>

@@ -1,9 +1,9 @@
 // The paper's preset against rules' exactness, exact flows and identities of the integral equation.
 //   An undeformed capsule with lambda = 1 carries no load and follows the flow of the empty pore: its nodes
 //   probe it.
-#include "failure.hpp"
-#include "membrane.hpp"
-#include "paper_system.hpp"
+#include "base/failure.hpp"
+#include "membrane/membrane.hpp"
+#include "paper/paper_system.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>

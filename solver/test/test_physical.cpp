@@ -1,7 +1,7 @@
 // Cases in physical units: groups and scales by hand, and where contradictions are said.
-#include "case_file.hpp"
-#include "failure.hpp"
-#include "physical.hpp"
+#include "base/failure.hpp"
+#include "case/case_file.hpp"
+#include "case/physical.hpp"
 #include "temporary_directory.hpp"
 #include <array>
 #include <boost/test/unit_test.hpp>

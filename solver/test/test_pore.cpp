@@ -1,6 +1,6 @@
 // The wall against eq. 1 itself, closed forms and finite differences.
-#include "failure.hpp"
-#include "pore.hpp"
+#include "base/failure.hpp"
+#include "geometry/pore.hpp"
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The line about runs under way: when it is shown, which run it speaks of, and what it expects.
-#include "progress.hpp"
+#include "program/progress.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cstdio>

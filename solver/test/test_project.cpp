@@ -1,5 +1,5 @@
 // Cases of the project by their names.
-#include "project.hpp"
+#include "case/project.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 

@@ -1,5 +1,5 @@
 // Quadrature rules and interpolation against exact integrals.
-#include "quadrature.hpp"
+#include "geometry/quadrature.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 

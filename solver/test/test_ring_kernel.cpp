@@ -1,6 +1,6 @@
 // Ring kernels, every instruction set that runs here: against brute-force integration of eq. 18 in quadruple
 // precision, and against the identities of Stokes flow.
-#include "ring_kernel.hpp"
+#include "integrals/ring_kernel.hpp"
 
 #include <boost/math/constants/constants.hpp>
 #include <boost/math/quadrature/gauss.hpp>

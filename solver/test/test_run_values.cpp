@@ -1,6 +1,6 @@
 // What names mean in a run: summary, series, profiles, keys; other runs and cases; errors carried through.
-#include "failure.hpp"
-#include "run_values.hpp"
+#include "base/failure.hpp"
+#include "compare/run_values.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 

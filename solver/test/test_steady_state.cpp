@@ -1,7 +1,7 @@
 // Steady shapes and small motions about them: exact limits, and the motion's own equations differentiated.
-#include "dynamics.hpp"
-#include "failure.hpp"
-#include "steady_state.hpp"
+#include "base/failure.hpp"
+#include "motion/dynamics.hpp"
+#include "steady/steady_state.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>

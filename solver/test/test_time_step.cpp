@@ -1,7 +1,7 @@
 // Orders of the explicit schemes on a real capsule, their interpolants, and their limits of stability.
-#include "dynamics.hpp"
-#include "motion.hpp"
-#include "time_step.hpp"
+#include "motion/dynamics.hpp"
+#include "motion/motion.hpp"
+#include "motion/time_step.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // Quantities as they are typed: many spellings of one number, and what is refused.
-#include "units.hpp"
+#include "case/units.hpp"
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <utility>

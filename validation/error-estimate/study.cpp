@@ -1,6 +1,6 @@
 // Does error_estimate bound the error, and not by too much? Capsules of many kinds against refined runs.
 #include "study.hpp"
-#include "resolution.hpp"
+#include "scene/resolution.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

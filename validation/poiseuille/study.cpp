@@ -1,10 +1,10 @@
 // Is the flow Poiseuille's where the paper says so: half a radius behind a square mouth, and one radius before and
 // behind a capsule? (Section 2.2.2)
 #include "study.hpp"
-#include "dynamics.hpp"
-#include "flow_system.hpp"
-#include "motion.hpp"
-#include "resolution.hpp"
+#include "flow/flow.hpp"
+#include "motion/dynamics.hpp"
+#include "motion/motion.hpp"
+#include "scene/resolution.hpp"
 #include <cmath>
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 // velocities the small motions, all of them or the slowest alone, carry on to where the table was read off, beside
 // marches in a longer tube and in the paper's, whose exit is near there; and on, to where the capsule has settled.
 #include "study.hpp"
-#include "compare.hpp"
-#include "dynamics.hpp"
-#include "steady_state.hpp"
+#include "compare/comparison.hpp"
+#include "motion/dynamics.hpp"
+#include "steady/steady_state.hpp"
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

@@ -6,11 +6,11 @@
 //                      number
 //   paper              error of the stored history; time of a step times the number of steps
 #include "study.hpp"
-#include "dynamics.hpp"
-#include "failure.hpp"
-#include "flow_system.hpp"
-#include "resolution.hpp"
-#include "time_step.hpp"
+#include "base/failure.hpp"
+#include "flow/flow.hpp"
+#include "motion/dynamics.hpp"
+#include "motion/time_step.hpp"
+#include "scene/resolution.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

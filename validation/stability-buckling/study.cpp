@@ -2,7 +2,7 @@
 // by bisection, the smallest stiffness that lets none of them become a wrinkle, against the capillary number, the mesh
 // and the depth of the dents; and length and place of the first wrinkles of softer membranes.
 #include "study.hpp"
-#include "dynamics.hpp"
+#include "motion/dynamics.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // How far away must the edges of the scene be? The exit plane and the entrance section by the flow around one and the
 // same shape, which has no error of a march; the start by marches.
 #include "study.hpp"
-#include "dynamics.hpp"
+#include "motion/dynamics.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

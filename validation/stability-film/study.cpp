@@ -1,7 +1,7 @@
 // How thin may the film between membrane and wall be? The error of the near-singular quadrature against the film over
 // the panel's length, and capsules up to R_eq = 1.3 that nearly plug the tube.
 #include "study.hpp"
-#include "layer_potential.hpp"
+#include "integrals/layer_potential.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // How sharp is the fold at the rear of a flat capsule, and which mesh does it need? Steady states of Table 3's capsule
 // against the bending stiffness, on five meshes; and what the program says where the mesh does not do.
 #include "study.hpp"
-#include "continuation.hpp"
-#include "failure.hpp"
-#include "steady_state.hpp"
+#include "base/failure.hpp"
+#include "steady/continuation.hpp"
+#include "steady/steady_state.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

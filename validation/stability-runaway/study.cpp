@@ -1,6 +1,6 @@
 // How fast does a capsule run away beyond its fold? Marches in an endless tube just below and just above the fold of a
 // neo-Hookean sphere, and through the paper's pore.
-#include "motion.hpp"
+#include "motion/motion.hpp"
 #include "steady_folds.hpp"
 #include <algorithm>
 #include <cmath>

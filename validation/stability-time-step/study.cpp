@@ -2,9 +2,9 @@
 // disturbance of the shape dies away, by bisection, against the eigenvalues of the linearised motion; what the program
 // says of a longer step; and how long the steps of the default are.
 #include "study.hpp"
-#include "dynamics.hpp"
-#include "failure.hpp"
-#include "time_step.hpp"
+#include "base/failure.hpp"
+#include "motion/dynamics.hpp"
+#include "motion/time_step.hpp"
 #include <array>
 #include <cmath>
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 // eigenvalues against what is known exactly, the corrections that one shape's inverse leaves to the next, short
 // entrances, and the pressure drop of one shape that no longer changes.
 #include "study.hpp"
-#include "dynamics.hpp"
-#include "flow_system.hpp"
-#include "resolution.hpp"
+#include "flow/flow.hpp"
+#include "motion/dynamics.hpp"
+#include "scene/resolution.hpp"
 #include <cmath>
 #include <fmt/format.h>
 

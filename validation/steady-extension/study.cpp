@@ -1,7 +1,7 @@
 // Spheres in an unbounded uniaxial extension: deformation against capillary number for both laws, its slope from the
 // theory of small deformations, and where steady states end.
-#include "branch.hpp"
-#include "run_values.hpp"
+#include "compare/run_values.hpp"
+#include "steady/branch.hpp"
 #include "steady_folds.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Up to which capillary number does a steady state exist? Folds of neo-Hookean capsules against size, shape and bending
 // stiffness on two meshes; the same search for Skalak's law.
-#include "failure.hpp"
-#include "run_values.hpp"
+#include "base/failure.hpp"
+#include "compare/run_values.hpp"
 #include "steady_folds.hpp"
 #include <algorithm>
 #include <cmath>

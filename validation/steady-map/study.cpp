@@ -1,8 +1,8 @@
 // The steady pressure drop and film over the plane of size and capillary number, both laws: each row of the map goes
 // from point to neighbouring point.
 #include "study.hpp"
-#include "failure.hpp"
-#include "steady_state.hpp"
+#include "base/failure.hpp"
+#include "steady/steady_state.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -1,0 +1,10 @@
+# Writes OUTPUT, a source file that defines the digest of everything the solver is made of, in the folders of SOURCES.
+file(GLOB sources RELATIVE ${SOURCES} ${SOURCES}/*/*.cpp ${SOURCES}/*/*.hpp)
+list(FILTER sources EXCLUDE REGEX "^(test|tool|benchmark)/")
+list(SORT sources)
+foreach(source IN LISTS sources)
+  file(SHA256 ${SOURCES}/${source} hash)
+  string(APPEND hashes "${source} ${hash}\n")
+endforeach()
+string(SHA256 digest "${hashes}")
+file(WRITE ${OUTPUT} "#include \"base/build_info.hpp\"\nconst char *const capsule::build_info::source_digest = \"${digest}\";\n")

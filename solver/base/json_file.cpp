@@ -1,0 +1,30 @@
+#include "base/json_file.hpp"
+#include "base/atomic_file.hpp"
+#include "base/failure.hpp"
+#include <cerrno>
+#include <fmt/format.h>
+#include <fstream>
+
+namespace capsule {
+
+void fail_to_use(const std::filesystem::path &file, const Json::exception &error) {
+  throw FileError(
+      fmt::format("cannot use '{}': {}; remove it or run with --fresh", file.string(), error.what()));
+}
+
+std::optional<Json> read_json(const std::filesystem::path &file) {
+  errno = 0;
+  std::ifstream stream(file);
+  if (!stream) {
+    if (errno == ENOENT)
+      return std::nullopt;
+    fail_at("cannot read", file, errno);
+  }
+  try {
+    return Json::parse(stream);
+  } catch (const Json::exception &error) {
+    fail_to_use(file, error);
+  }
+}
+
+} // namespace capsule

@@ -1,0 +1,170 @@
+#include "case/case_checks.hpp"
+#include "base/text.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace capsule {
+namespace {
+
+struct Checks {
+  const Chosen &chosen;
+  Case &physics;
+
+  void check_scheme() {
+    Case &c = physics;
+    const bool given_steps = c.time.scheme != Scheme::bdf;
+    const std::string unused = given_steps ? "time.tolerance" : "time.step";
+    // With a sweep over several schemes each key serves some of the runs.
+    if (chosen.given(unused) && !chosen.swept("time.scheme") && !chosen.swept("numerics"))
+      chosen.complain({unused},
+                      fmt::format("{} means nothing to time.scheme = {}", unused,
+                                  value_text(*get_value(*find_key("time.scheme"), c))),
+                      given_steps ? "give time.step" : "give time.tolerance, or an explicit time.scheme");
+    (given_steps ? c.time.tolerance : c.time.step) = 0;
+    if (given_steps && c.time.step == 0)
+      chosen.complain(
+          {"time.scheme"}, "time.scheme = \"rk4\" needs a time.step",
+          "the longest stable step is about 1.4 times that of \"euler\"; both fall with mesh.membrane");
+  }
+
+  // Section 3 of the paper is one method for one flow, and alone in having elements on the exit section.
+  void check_numerics() {
+    Case &c = physics;
+    if (c.numerics == Numerics::standard) {
+      if (chosen.given("mesh.exit") && !chosen.swept("numerics"))
+        chosen.complain({"mesh.exit"}, "mesh.exit means nothing to numerics = \"standard\"",
+                        "leave out mesh.exit, or give numerics = \"paper\"");
+      c.mesh.exit = 0;
+      return;
+    }
+    if (c.time.scheme != Scheme::euler)
+      chosen.complain({"time.scheme", "numerics"}, "numerics = \"paper\" marches with Euler's scheme only",
+                      "leave out time.scheme, or set it to \"euler\"");
+    if (c.flow.type != FlowType::pore)
+      chosen.complain({"flow.type", "numerics"}, "numerics = \"paper\" computes no unbounded liquid",
+                      "flow.type = \"extension\" needs numerics = \"standard\"");
+    else if (c.pore.shape != PoreShape::hyperbolic)
+      chosen.complain({"pore.shape", "numerics"}, "numerics = \"paper\" has the hyperbolic pore only",
+                      "another pore.shape needs numerics = \"standard\"");
+  }
+
+  void check_extension() {
+    const Case &c = physics;
+    if (c.pore.shape != PoreShape::none)
+      chosen.complain({"pore.shape", "flow.type"}, "an extension is unbounded",
+                      "pore.shape must be \"none\"");
+    if (c.capsule.radius != 1)
+      chosen.complain({"capsule.radius"}, "in an extension lengths are scaled with the capsule's radius",
+                      "leave out capsule.radius, or set it to 1");
+  }
+
+  void check_end_of_extension() {
+    const Case &c = physics;
+    if (c.capsule.start_x != 0)
+      chosen.complain({"capsule.start_x"}, "in an extension the capsule starts in the centre of the flow",
+                      "leave out capsule.start_x, or set it to 0");
+    if (!c.until.time)
+      chosen.complain({"flow.type"}, "an extension needs until.time");
+    if (c.until.x_g || !c.output.profiles_at_x_g.empty())
+      chosen.complain({"until.x_g", "output.profiles_at_x_g"},
+                      "in an extension the capsule stays where it is",
+                      "use until.time and output.profiles_at_time");
+  }
+
+  // The undeformed capsule between the two end sections and inside the wall of eq. 1.
+  void check_start() {
+    const Case &c = physics;
+    const double half_length = c.capsule.radius * std::pow(c.capsule.aspect_ratio, 2.0 / 3);
+    const double half_width = c.capsule.radius / std::cbrt(c.capsule.aspect_ratio);
+    const double x_0 = c.capsule.start_x;
+    const double back = x_0 - half_length, front = x_0 + half_length;
+    if (back <= -c.pore.entrance_distance)
+      chosen.complain(
+          {"capsule.start_x", "pore.entrance_distance", "capsule.radius"},
+          fmt::format("capsule outside the reservoir: it begins at x = {:.4g}", back),
+          fmt::format("the entrance section is at x = {}", number_text(-c.pore.entrance_distance)));
+    if (front >= c.pore.exit_x)
+      chosen.complain({"capsule.start_x", "pore.exit_x", "capsule.radius"},
+                      fmt::format("capsule beyond the exit: it ends at x = {:.4g}", front),
+                      fmt::format("the exit section is at x = {}", number_text(c.pore.exit_x)));
+
+    // r_w^2 - r^2 along the capsule is a parabola on each side of x = 0.
+    const double slope = std::pow(half_width / half_length, 2);
+    const double opening = c.pore.shape == PoreShape::tube
+                               ? 0
+                               : std::pow(std::tan(c.pore.opening_angle_deg * std::numbers::pi / 180), 2);
+    const auto smallest = [&](double from, double to, double growth) {
+      const double x = std::clamp(x_0 * slope / (growth + slope), from, to);
+      return 1 - half_width * half_width + growth * x * x + slope * (x - x_0) * (x - x_0);
+    };
+    const bool upstream = back < 0 && smallest(back, std::min(front, 0.0), opening) <= 0;
+    const bool downstream = front > 0 && smallest(std::max(back, 0.0), front, 0) <= 0;
+    if (upstream || downstream)
+      chosen.complain({"capsule.start_x", "capsule.radius"},
+                      "capsule larger than the pore's entrance at its start",
+                      fmt::format("its largest radius is {:.4g} at x = {}; the tube's is 1 from x = 0 on",
+                                  half_width, number_text(x_0)));
+  }
+
+  void check_end() {
+    const Case &c = physics;
+    const double half_length = c.capsule.radius * std::pow(c.capsule.aspect_ratio, 2.0 / 3);
+    if (c.until.x_g && *c.until.x_g <= c.capsule.start_x)
+      chosen.complain({"until.x_g", "capsule.start_x"},
+                      fmt::format("until.x_g = {} lies upstream of the start", number_text(*c.until.x_g)),
+                      fmt::format("capsule.start_x is {}", number_text(c.capsule.start_x)));
+    if (c.until.x_g && *c.until.x_g + half_length >= c.pore.exit_x)
+      chosen.complain({"until.x_g", "pore.exit_x", "capsule.radius"},
+                      fmt::format("at until.x_g = {} the capsule would cross the exit section",
+                                  number_text(*c.until.x_g)),
+                      fmt::format("pore.exit_x is {}", number_text(c.pore.exit_x)));
+    const double last = c.until.x_g.value_or(c.pore.exit_x);
+    for (const double x : c.output.profiles_at_x_g)
+      if (x < c.capsule.start_x || x > last)
+        chosen.complain(
+            {"output.profiles_at_x_g"}, fmt::format("the capsule never comes to x_g = {}", number_text(x)),
+            fmt::format("its way goes from {} to {}", number_text(c.capsule.start_x), number_text(last)));
+  }
+
+  void check(const Task &task) {
+    const Case &c = physics;
+    check_scheme();
+    check_numerics();
+    if (!task.motion && c.numerics == Numerics::paper)
+      chosen.complain({"numerics"}, "numerics = \"paper\" only marches in time",
+                      "steady states need numerics = \"standard\"");
+    if (c.flow.type == FlowType::extension)
+      check_extension();
+    else if (c.pore.shape == PoreShape::none)
+      chosen.complain({"pore.shape"}, "a pore flow needs a pore",
+                      "pore.shape = \"none\" goes with flow.type = \"extension\"");
+    if (task.motion)
+      check_way();
+  }
+
+  // From the start to the end of a motion.
+  void check_way() {
+    const Case &c = physics;
+    if (c.flow.type == FlowType::extension) {
+      check_end_of_extension();
+    } else if (c.pore.shape != PoreShape::none) {
+      check_start();
+      check_end();
+    }
+    for (const double t : c.output.profiles_at_time)
+      if (c.until.time && t > *c.until.time)
+        chosen.complain({"output.profiles_at_time"},
+                        fmt::format("time {} comes after the end", number_text(t)),
+                        fmt::format("until.time is {}", number_text(*c.until.time)));
+  }
+};
+
+} // namespace
+
+void check_together(const Chosen &chosen, Case &physics, const Task &task) {
+  Checks{chosen, physics}.check(task);
+}
+
+} // namespace capsule

@@ -1,0 +1,256 @@
+#include "case/case_file.hpp"
+#include "base/build_info.hpp"
+#include "base/text.hpp"
+#include "case/case_checks.hpp"
+#include "case/case_reader.hpp"
+#include "case/key.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+
+namespace capsule {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Selection> all_selections(const std::vector<Assignment> &assignments) {
+  std::vector<Selection> selections{{}};
+  for (const Assignment &assignment : assignments) {
+    std::vector<Selection> longer;
+    for (const Selection &selection : selections)
+      for (std::size_t i = 0; i < assignment.values.size(); ++i) {
+        longer.push_back(selection);
+        longer.back().push_back(i);
+      }
+    selections = std::move(longer);
+  }
+  return selections;
+}
+
+// One run while it is put together: what was given, where, and what follows.
+struct Builder {
+  Chosen chosen;
+  RunInput run;
+  std::vector<std::string> derived; // keys whose value follows from the physical ones
+  bool measured_well = true;        // no physical key was complained of
+
+  // Section 3 of the paper; values that are given override it.
+  void apply_preset() {
+    if (const auto *numerics = chosen.given("numerics"))
+      set_value(*find_key("numerics"), numerics->value, run.physics);
+    if (run.physics.numerics == Numerics::paper) {
+      run.physics.mesh = {60, 120, 30};
+      run.physics.time.scheme = Scheme::euler;
+    }
+  }
+
+  // What a directory may be called by: no unit, no slash.
+  std::string si_number(const Key &key) const {
+    return number_text(std::get<Measured>(key.field).member.of(run.physics).si);
+  }
+
+  void take_values() {
+    for (std::size_t i = 0; i < chosen.reader.assignments.size(); ++i) {
+      const Assignment &assignment = chosen.reader.assignments[i];
+      const Value &value = assignment.values[chosen.selection[i]].value;
+      if (set_value(*assignment.key, value, run.physics))
+        stand_in(*assignment.key);
+      if (assignment.sweep) {
+        const auto *word = std::get_if<std::string>(&value);
+        const bool measured = std::holds_alternative<Measured>(assignment.key->field);
+        run.name += fmt::format("{}{}={}", run.name.empty() ? "" : ",", last_component(assignment.key->name),
+                                measured ? si_number(*assignment.key)
+                                : word   ? *word
+                                         : value_text(value));
+      }
+    }
+  }
+
+  // Any quantity for a physical key that was complained of, so that what follows from it is not missed.
+  void stand_in(const Key &key) {
+    const auto *measured = std::get_if<Measured>(&key.field);
+    if (!measured)
+      return;
+    measured->member.in(run.physics).si = 1;
+    measured_well = false;
+  }
+
+  // The dimensionless values that follow from the physical ones; a value that is given too must agree.
+  void derive() {
+    for (const std::string &name : chosen.reader.meant)
+      if (const Key *key = find_key(name); key != nullptr && !chosen.given(name))
+        stand_in(*key);
+    if (!has_physical(run.physics))
+      return;
+    for (const PhysicalComplaint &why : physical_complaints(run.physics)) {
+      std::vector<std::string> places = why.keys;
+      std::ranges::copy(physical_keys(), std::back_inserter(places));
+      chosen.complain(places, why.message, "`capsule keys` tells what physical.* means");
+      measured_well = false;
+    }
+    for (const Derived &value : derived_values(run.physics)) {
+      derived.push_back(value.key);
+      if (measured_well)
+        take_derived(value);
+    }
+  }
+
+  void take_derived(const Derived &value) {
+    const Key &key = *find_key(value.key);
+    const double stated = number_of(key, run.physics);
+    if (auto complaint = set_value(key, value.value, run.physics))
+      chosen.complain({value.from}, complaint->message, complaint->hint);
+    if (chosen.given(value.key) && std::abs(stated / value.value - 1) > 1e-9)
+      chosen.complain({value.key},
+                      fmt::format("{} = {}, but {} makes it {}", value.key, number_text(stated), value.from,
+                                  number_text(value.value)),
+                      "leave one of them out");
+  }
+
+  static std::vector<std::string> physical_keys() {
+    std::vector<std::string> names;
+    for (const Key &key : keys())
+      if (std::holds_alternative<Measured>(key.field))
+        names.push_back(key.name);
+    return names;
+  }
+
+  static double number_of(const Key &key, const Case &physics) {
+    return std::get<Member<double>>(key.field).of(physics);
+  }
+
+  // Defaults that depend on other keys.
+  void complete() {
+    Case &c = run.physics;
+    if (c.time.scheme == Scheme::euler && !chosen.given("time.step"))
+      c.time.step = 2.5e-4;
+    if (c.flow.type == FlowType::extension) {
+      if (!chosen.given("pore.shape"))
+        c.pore.shape = PoreShape::none;
+      if (!chosen.given("capsule.radius"))
+        c.capsule.radius = 1;
+      if (!chosen.given("capsule.start_x"))
+        c.capsule.start_x = 0;
+    } else if (!c.until.x_g && !c.until.time)
+      c.until.x_g = 11.84;
+  }
+
+  bool has_required() {
+    bool all = true;
+    for (const Key &key : keys()) {
+      const bool scale = key.name == "capsule.radius" && run.physics.flow.type == FlowType::extension;
+      if (!key.required || chosen.given(key.name) || scale ||
+          std::ranges::find(derived, key.name) != derived.end())
+        continue;
+      all = false;
+      if (std::ranges::find(chosen.reader.meant, key.name) != chosen.reader.meant.end())
+        continue;
+      const auto section = chosen.reader.sections.find(section_of(key.name));
+      chosen.reader.complain(section == chosen.reader.sections.end() ? TextPlace{} : section->second,
+                             fmt::format("missing key '{}'", key.name),
+                             key.meaning + ": " + allowed_text(key));
+    }
+    return all;
+  }
+};
+
+std::vector<RunInput> build_runs(CaseReader &reader, const Task &task) {
+  constexpr std::size_t most_runs = 10000;
+  std::size_t count = 1;
+  for (const Assignment &assignment : reader.assignments)
+    count = std::min(count * assignment.values.size(), most_runs + 1);
+  if (count > most_runs) {
+    reader.complain({}, fmt::format("the sweeps make more than {} runs", most_runs));
+    return {};
+  }
+  const bool valid = reader.text.errors.empty();
+  std::vector<RunInput> runs;
+  for (const Selection &selection : all_selections(reader.assignments)) {
+    Builder builder{{reader, selection}, {}, {}};
+    builder.apply_preset();
+    builder.take_values();
+    builder.derive();
+    builder.complete();
+    if (builder.has_required() && builder.measured_well && valid)
+      check_together(builder.chosen, builder.run.physics, task);
+    runs.push_back(std::move(builder.run));
+  }
+  return runs;
+}
+
+// The input without what makes no difference to the results.
+std::string what_counts(const Case &physics, const Task &task) {
+  Case relevant = physics;
+  if (!task.motion) {
+    relevant.capsule.start_x = Case{}.capsule.start_x;
+    relevant.time = {};
+    relevant.until = {};
+    relevant.output = {};
+    if (relevant.pore.shape != PoreShape::none)
+      relevant.pore = {.shape = PoreShape::tube};
+  }
+  forget_spellings(relevant);
+  relevant.title.clear();
+  relevant.paper.clear();
+  if (physics.numerics == Numerics::paper) // its meshes and its step are given
+    relevant.accuracy = Case{}.accuracy;
+  return resolved_toml(relevant);
+}
+
+} // namespace
+
+CaseInput read_case(const fs::path &path, const std::vector<std::string> &overrides, const Task &task) {
+  CaseInput input;
+  input.file = case_file_of(path);
+  input.name = case_name_of(input.file);
+  std::size_t families = 1;
+  for (std::size_t i = 0; i < families; ++i) {
+    CaseReader reader;
+    reader.family = i;
+    read_case_file(reader, input.file);
+    for (const std::string &argument : overrides)
+      read_override(reader, argument);
+    std::vector<RunInput> runs;
+    if (reader.complete)
+      runs = build_runs(reader, task);
+    reader.text.throw_if_any();
+    for (RunInput &run : runs) {
+      if (!reader.families.empty())
+        run.name = reader.families[i] + (run.name.empty() ? "" : ",") + run.name;
+      input.runs.push_back(std::move(run));
+    }
+    families = std::max<std::size_t>(1, reader.families.size());
+  }
+  return input;
+}
+
+std::string resolved_toml(const Case &physics) {
+  std::string text, section;
+  for (const Key &key : keys()) {
+    const auto value = get_value(key, physics);
+    if (!value)
+      continue;
+    if (section_of(key.name) != section) {
+      section = section_of(key.name);
+      text += fmt::format("\n[{}]\n", section);
+    }
+    text += fmt::format("{} = {}\n", last_component(key.name), value_text(*value));
+  }
+  return text;
+}
+
+bool same_input(const Case &a, const Case &b, const Task &task) {
+  return what_counts(a, task) == what_counts(b, task);
+}
+
+std::string run_identity(const Case &physics, const Task &task) {
+  // FNV-1a, 64 bit
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const char c :
+       fmt::format("{}\n{}\n{}", build_info::source_digest, task.name, what_counts(physics, task)))
+    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  return fmt::format("{:016x}", hash);
+}
+
+} // namespace capsule

@@ -1,0 +1,113 @@
+#include "case/physical.hpp"
+#include "case/case.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace capsule {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// The surface Young modulus over G, for small strain.
+double young_over_shear(const Case &physics) {
+  const double c = physics.membrane.dilatation;
+  return physics.membrane.law == LawName::neo_hookean ? 3 : 2 * (1 + 2 * c) / (1 + c);
+}
+
+double shear_modulus(const Case &physics) {
+  const auto &p = physics.physical;
+  return p.shear_modulus.si > 0 ? p.shear_modulus.si : p.young_modulus.si / young_over_shear(physics);
+}
+
+// Pressure drop of the empty pore, scaled with mu Q/(pi R_t^3).
+double empty_pressure_drop(const Case &physics) {
+  const double alpha = physics.pore.opening_angle_deg * pi / 180;
+  const double whole_hyperboloid =
+      3 * pi * std::pow(std::sin(alpha), 3) / (std::pow(1 - std::cos(alpha), 2) * (1 + 2 * std::cos(alpha)));
+  const double mouth = physics.pore.shape == PoreShape::hyperbolic ? whole_hyperboloid / 2 : 0;
+  return mouth + 8 * physics.physical.pore_length.si / physics.physical.tube_radius.si;
+}
+
+double flow_rate(const Case &physics) {
+  const auto &p = physics.physical;
+  return p.flow_rate.si > 0 ? p.flow_rate.si
+                            : p.pressure.si * pi * std::pow(p.tube_radius.si, 3) /
+                                  (p.viscosity.si * empty_pressure_drop(physics));
+}
+
+// Without the digits in which decimal fractions differ from doubles: 4e-6/5e-6 is 0.8.
+double rounded(double value) {
+  return std::strtod(fmt::format("{:.15g}", value).c_str(), nullptr);
+}
+
+} // namespace
+
+bool has_physical(const Case &physics) {
+  const auto &p = physics.physical;
+  return std::ranges::any_of(std::array{p.tube_radius, p.viscosity, p.flow_rate, p.pressure, p.pore_length,
+                                        p.shear_modulus, p.young_modulus, p.bending_modulus, p.capsule_radius,
+                                        p.internal_viscosity},
+                             [](const Quantity &quantity) { return quantity.si > 0; });
+}
+
+std::vector<PhysicalComplaint> physical_complaints(const Case &physics) {
+  const auto &p = physics.physical;
+  std::vector<PhysicalComplaint> complaints;
+  if (physics.flow.type != FlowType::pore)
+    complaints.push_back({"physical units go with a pore: flow.type must be \"pore\"", {"flow.type"}});
+  const auto require = [&](const Quantity &quantity, const std::string &key) {
+    if (quantity.si == 0)
+      complaints.push_back({"missing key '" + key + "'", {}});
+  };
+  const auto require_one = [&](const Quantity &a, const std::string &key, const Quantity &b,
+                               const std::string &instead) {
+    if (a.si == 0 && b.si == 0)
+      complaints.push_back({fmt::format("missing key '{}', or '{}'", key, instead), {}});
+    else if (a.si > 0 && b.si > 0)
+      complaints.push_back({fmt::format("{} and {} exclude each other", key, instead), {instead}});
+  };
+  require(p.tube_radius, "physical.tube_radius");
+  require(p.viscosity, "physical.viscosity");
+  require_one(p.flow_rate, "physical.flow_rate", p.pressure, "physical.pressure");
+  require_one(p.shear_modulus, "physical.shear_modulus", p.young_modulus, "physical.young_modulus");
+  if (p.pressure.si > 0 && p.pore_length.si == 0)
+    complaints.push_back({"physical.pressure needs physical.pore_length", {"physical.pressure"}});
+  if (p.pressure.si == 0 && p.pore_length.si > 0)
+    complaints.push_back(
+        {"physical.pore_length means nothing without physical.pressure", {"physical.pore_length"}});
+  return complaints;
+}
+
+std::vector<Derived> derived_values(const Case &physics) {
+  const auto &p = physics.physical;
+  const double radius = p.tube_radius.si, shear = shear_modulus(physics);
+  std::vector<Derived> values = {{"flow.capillary_number",
+                                  p.viscosity.si * flow_rate(physics) / (pi * radius * radius * shear),
+                                  p.flow_rate.si > 0 ? "physical.flow_rate" : "physical.pressure"}};
+  if (p.capsule_radius.si > 0)
+    values.push_back({"capsule.radius", p.capsule_radius.si / radius, "physical.capsule_radius"});
+  if (p.bending_modulus.si > 0)
+    values.push_back({"membrane.bending_ratio", p.bending_modulus.si / (shear * radius * radius),
+                      "physical.bending_modulus"});
+  if (p.internal_viscosity.si > 0)
+    values.push_back(
+        {"flow.viscosity_ratio", p.internal_viscosity.si / p.viscosity.si, "physical.internal_viscosity"});
+  for (Derived &derived : values)
+    derived.value = rounded(derived.value);
+  return values;
+}
+
+Scales physical_scales(const Case &physics) {
+  const double radius = physics.physical.tube_radius.si, rate = flow_rate(physics);
+  return {.length = radius,
+          .velocity = rate / (pi * radius * radius),
+          .time = pi * std::pow(radius, 3) / rate,
+          .pressure = physics.physical.viscosity.si * rate / (pi * std::pow(radius, 3)),
+          .tension = shear_modulus(physics)};
+}
+
+} // namespace capsule

@@ -1,0 +1,40 @@
+#pragma once
+// A case in physical units: the dimensionless groups that follow from its quantities (section 2.2 of the paper), and the
+// scales that turn results back.
+//   length R_t, velocity Q/(pi R_t^2), time pi R_t^3/Q, pressure mu Q/(pi R_t^3), tension G
+// Everything is held in SI units. Throws nothing.
+#include "case/units.hpp"
+#include <string>
+#include <vector>
+
+namespace capsule {
+
+struct Case;
+
+// A dimensionless key that physical ones determine, its value, and the one of them that a complaint names.
+struct Derived {
+  std::string key; // "flow.capillary_number"
+  double value = 0;
+  std::string from; // "physical.flow_rate"
+};
+
+// Whether the case speaks of physical units at all.
+bool has_physical(const Case &physics);
+// Physical keys that are missing or exclude each other, in words, and the keys to say so at.
+struct PhysicalComplaint {
+  std::string message;
+  std::vector<std::string> keys;
+};
+std::vector<PhysicalComplaint> physical_complaints(const Case &physics);
+// What follows from the physical keys of a case; where there are complaints, only which keys have a value. With a given
+// pressure the flow rate is that of the empty pore: 8 L/R_t of Poiseuille's flow over physical.pore_length, and for
+// the mouth half of what the whole hyperboloid of eq. 1 costs (exact for the hyperboloid; the pore's own mouth is
+// within a few percent of it).
+std::vector<Derived> derived_values(const Case &physics);
+
+struct Scales {
+  double length = 1, velocity = 1, time = 1, pressure = 1, tension = 1;
+};
+Scales physical_scales(const Case &physics);
+
+} // namespace capsule

@@ -1,0 +1,109 @@
+#include "case/toml_text.hpp"
+#include "base/text.hpp"
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+
+namespace capsule {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_ascii(char32_t c) {
+  return c < 0x80;
+}
+
+// The first character beyond ASCII that begins a line joined to the one before by a backslash; also in a literal
+// string, where a backslash joins nothing.
+std::size_t find_joined(const std::u32string &text) {
+  constexpr const char32_t *white = U" \t\v\f\r\n";
+  for (std::size_t at = text.find(U'\\'); at != std::u32string::npos; at = text.find(U'\\', at + 1)) {
+    const std::size_t next = text.find_first_not_of(white, at + 1);
+    if (next != std::u32string::npos && !is_ascii(text[next]) && text.find(U'\n', at) < next)
+      return next;
+  }
+  return std::u32string::npos;
+}
+
+TextPlace place_at(std::size_t source, std::u32string_view text, std::size_t at) {
+  const std::u32string_view before = text.substr(0, at);
+  const auto lines = static_cast<std::size_t>(std::ranges::count(before, U'\n'));
+  return {source, lines + 1, before.size() - (before.rfind(U'\n') + 1) + 1};
+}
+
+// What toml++ says of a text whose characters beyond ASCII it was given as question marks.
+LocatedError syntax_error(std::size_t source, const toml::parse_error &error, const std::u32string &text) {
+  LocatedError told{place_of(source, error.source().begin), std::string(error.description()), ""};
+  const std::vector<std::u32string> lines = split_lines(text);
+  if (told.place.line > lines.size() || told.place.column > lines[told.place.line - 1].size())
+    return told;
+  const std::u32string_view line = lines[told.place.line - 1];
+  const std::size_t at = told.place.column - 1;
+  if (const std::size_t mark = told.message.rfind("'?'"); mark != std::string::npos)
+    told.message.replace(mark + 1, 1, encoded(line.substr(at, 1)));
+  const std::u32string_view before = line.substr(0, line.find_last_not_of(U' ', at == 0 ? 0 : at - 1) + 1);
+  const bool behind_number = !before.empty() && before.back() >= U'0' && before.back() <= U'9';
+  const bool letter = (line[at] >= U'a' && line[at] <= U'z') || (line[at] >= U'A' && line[at] <= U'Z');
+  if (behind_number && (letter || !is_ascii(line[at])))
+    told.hint = "a number with its unit stands in quotes: \"5 um\"";
+  return told;
+}
+
+} // namespace
+
+std::variant<std::string, Complaint> read_text(const fs::path &file) {
+  std::error_code ec;
+  const fs::file_status status = fs::status(file, ec);
+  if (status.type() == fs::file_type::not_found)
+    return Complaint{"no such file",
+                     file.filename() == "case.toml" ? "a case directory holds a case.toml" : ""};
+  if (status.type() == fs::file_type::directory)
+    return Complaint{"is a directory, not a file", ""};
+  if (ec)
+    return Complaint{"cannot be read: " + ec.message(), ""};
+  if (status.type() != fs::file_type::regular)
+    return Complaint{"is not a regular file", ""};
+  constexpr std::uintmax_t most_bytes = 1000000;
+  if (fs::file_size(file, ec) > most_bytes && !ec)
+    return Complaint{"is larger than any case file", ""};
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (stream && stream.peek() != std::ifstream::traits_type::eof())
+    text << stream.rdbuf();
+  if (!stream.is_open() || stream.bad())
+    return Complaint{std::string("cannot be read: ") + std::strerror(errno), ""};
+  return text.str();
+}
+
+std::variant<toml::table, LocatedError> parse_toml(std::size_t source, const std::string &text) {
+  const std::u32string characters = characters_of(text);
+  if (const std::size_t zero = characters.find(U'\0'); zero != std::u32string::npos)
+    return LocatedError{place_at(source, characters, zero), "not a text file: byte 0", ""};
+  if (const auto [wrong, unused] = std::ranges::mismatch(text, encoded(decoded(text))); wrong != text.end()) {
+    const std::u32string before = characters_of({text.begin(), wrong});
+    return LocatedError{place_at(source, before, before.size()),
+                        fmt::format("not UTF-8: byte 0x{:02x}", static_cast<unsigned char>(*wrong)), ""};
+  }
+  if (const std::size_t joined = find_joined(characters); joined != std::u32string::npos)
+    return LocatedError{place_at(source, characters, joined),
+                        "a joined line must begin with an ASCII character", ""};
+  try {
+    std::string ascii;
+    for (const char32_t c : characters)
+      ascii += is_ascii(c) ? static_cast<char>(c) : '?';
+    const toml::table well_formed = toml::parse(std::string_view(ascii)); // or it throws
+    return toml::parse(std::string_view(text));
+  } catch (const toml::parse_error &error) {
+    return syntax_error(source, error, characters);
+  }
+}
+
+TextPlace place_of(std::size_t source, const toml::source_position &position) {
+  return {source, std::max<std::size_t>(1, position.line), std::max<std::size_t>(1, position.column)};
+}
+
+} // namespace capsule

@@ -1,0 +1,17 @@
+#pragma once
+// The ledger of the paper's claims: one line per row of tables/published.csv that belongs to a claim, with the run
+// that fits worst where it speaks of several.
+#include "compare/comparison.hpp"
+
+namespace capsule {
+
+struct Ledger {
+  std::string csv;
+  std::string markdown;
+  std::string summary;      // one line: how many claims agree, differ, cannot be decided
+  long not_as_recorded = 0; // rows
+};
+// From the comparisons of all cases, in the order of the table.
+Ledger make_ledger(const std::vector<Comparison> &comparisons);
+
+} // namespace capsule

@@ -1,0 +1,316 @@
+#include "compare/run_values.hpp"
+#include "base/failure.hpp"
+#include "base/text.hpp"
+#include "case/key.hpp"
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+
+namespace capsule {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Profiles are written at the places that were asked for: nearer than this is the same place.
+constexpr double same_place = 1e-6;
+
+std::vector<std::string> split(const std::string &text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);)
+    parts.push_back(trimmed(part));
+  return parts;
+}
+
+const Key *key_named(const std::string &name) {
+  const auto named = [&](const Key &key) { return key.name == name || last_component(key.name) == name; };
+  const auto found = std::ranges::find_if(keys(), named);
+  return found == keys().end() ? nullptr : &*found;
+}
+
+// A quantity is the same in other units, or as the number in SI units by which runs are named.
+bool has_value(const Case &physics, const Key &key, const std::string &text) {
+  if (const auto *measured = std::get_if<Measured>(&key.field)) {
+    const auto read = read_quantity(text, measured->dimension);
+    const auto *quantity = std::get_if<Quantity>(&read);
+    const auto si = quantity != nullptr ? quantity->si : to_number(text);
+    return si && *si == measured->member.of(physics).si;
+  }
+  const auto value = get_value(key, physics);
+  if (!value)
+    return false;
+  if (const auto *word = std::get_if<std::string>(&*value))
+    return *word == text;
+  return to_number(value_text(*value)) == to_number(text);
+}
+
+std::optional<double> key_value(const std::string &name, const Case &physics) {
+  const Key *key = key_named(name);
+  const auto value = key != nullptr ? get_value(*key, physics) : std::nullopt;
+  return value ? to_number(value_text(*value)) : std::nullopt;
+}
+
+const Values &column(const Columns &columns, const std::string &name) {
+  const auto found = columns.find(name);
+  if (found == columns.end())
+    throw NoValue("no value");
+  return found->second;
+}
+
+// y where x passes a value for the first time; linear between the rows.
+double value_at(const Values &y, const Values &x, double at) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] == at)
+      return y[i];
+    if (i > 0 && (x[i - 1] < at) != (x[i] < at))
+      return y[i - 1] + (y[i] - y[i - 1]) * (at - x[i - 1]) / (x[i] - x[i - 1]);
+  }
+  throw NoValue("no value");
+}
+
+// y where x lies in a place. Ends of a range beyond those of x are cut off.
+Values values_at(const Values &y, const Values &x, const Place &place) {
+  if (place.from == place.to)
+    return {value_at(y, x, place.from)};
+  const double end_of_grid = 1e-9; // rows lie at round values to rounding, and an end counts once
+  Values values;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (x[i] > place.from + end_of_grid && x[i] < place.to - end_of_grid)
+      values.push_back(y[i]);
+  for (const double end : {place.from, place.to})
+    if (const auto [low, high] = std::ranges::minmax(x); low <= end && end <= high)
+      values.push_back(value_at(y, x, end));
+  return values;
+}
+
+Values part(const Values &values, const std::vector<std::size_t> &rows) {
+  Values result;
+  for (const std::size_t row : rows)
+    result.push_back(values[row]);
+  return result;
+}
+
+// The rows of the profile at a place along the way, or of the last one.
+std::vector<std::size_t> profile_rows(const Columns &profiles, const std::optional<Place> &place) {
+  const Values &along = column(profiles, place ? place->column : "time");
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < along.size(); ++i)
+    if (std::abs(along[i] - (place ? place->from : along.back())) < same_place)
+      rows.push_back(i);
+  if (rows.empty())
+    throw NoValue("no value");
+  return rows;
+}
+
+Values profile_values(const Columns &profiles, const Reference &reference) {
+  std::optional<Place> along, on_meridian;
+  for (const Place &place : reference.places)
+    (place.column == "time" || place.column == "x_g" ? along : on_meridian) = place;
+  const std::vector<std::size_t> rows = profile_rows(profiles, along);
+  const Values values = part(column(profiles, reference.name), rows);
+  return on_meridian ? values_at(values, part(column(profiles, on_meridian->column), rows), *on_meridian)
+                     : values;
+}
+
+} // namespace
+
+std::vector<std::string> read_lines(const fs::path &file) {
+  errno = 0;
+  std::ifstream stream(file);
+  if (!stream)
+    throw FileError(fmt::format("cannot read '{}': {}", file.string(), std::strerror(errno)));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+Columns read_columns(const fs::path &file) {
+  const std::vector<std::string> lines = read_lines(file);
+  const std::vector<std::string> names = split_csv(lines.empty() ? "" : lines[0]);
+  Columns columns;
+  for (const std::string &name : names)
+    columns[name] = {};
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    try {
+      const std::vector<std::string> fields = split_csv(lines[i]);
+      for (std::size_t k = 0; k < names.size(); ++k)
+        columns[names[k]].push_back(std::stod(fields.at(k)));
+    } catch (const std::logic_error &) { // of stod or at
+      throw FileError(fmt::format("{}:{}: not {} numbers", file.string(), i + 1, names.size()));
+    }
+  return columns;
+}
+
+std::vector<std::string> split_csv(const std::string &line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      fields.back() += line[++i];
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == ',' && !quoted)
+      fields.emplace_back();
+    else if (line[i] != '\r')
+      fields.back() += line[i];
+  }
+  return fields;
+}
+
+Selector::Selector(const std::string &text) {
+  if (trimmed(text).empty())
+    return;
+  for (const std::string &part : split(text, ';')) {
+    const std::size_t equals = part.find('=');
+    if (equals == std::string::npos)
+      throw InputError(fmt::format("the run '{}' is not of the form key=value", text));
+    const std::string key = trimmed(part.substr(0, equals));
+    if (key_named(key) == nullptr)
+      throw InputError(fmt::format("unknown key '{}'", key));
+    wanted_.emplace_back(key, split(part.substr(equals + 1), '|'));
+  }
+}
+
+bool Selector::selects(const Case &physics) const {
+  return std::ranges::all_of(wanted_, [&](const auto &wanted) {
+    const Key &key = *key_named(wanted.first);
+    return std::ranges::any_of(wanted.second,
+                               [&](const std::string &text) { return has_value(physics, key, text); });
+  });
+}
+
+std::optional<std::string> case_of(const Reference &reference) {
+  const std::size_t colon = reference.runs ? reference.runs->find(':') : std::string::npos;
+  return colon == std::string::npos ? std::nullopt : std::optional(trimmed(reference.runs->substr(0, colon)));
+}
+
+std::string runs_of(const Reference &reference) {
+  const std::string &text = reference.runs.value();
+  const std::size_t colon = text.find(':');
+  return colon == std::string::npos ? text : text.substr(colon + 1);
+}
+
+void RunTable::add(const std::string &case_name, const std::vector<RunResult> &runs) {
+  runs_[case_name] = runs;
+}
+
+std::vector<std::string> RunTable::cases() const {
+  std::vector<std::string> names;
+  for (const auto &[name, runs] : runs_)
+    names.push_back(name);
+  return names;
+}
+
+const std::vector<RunResult> &RunTable::runs_of(const std::string &case_name) const {
+  static const std::vector<RunResult> none;
+  const auto found = runs_.find(case_name);
+  return found == runs_.end() ? none : found->second;
+}
+
+std::vector<const RunResult *> RunTable::selected(const Reference &reference, const std::string &case_name,
+                                                  const RunResult *run) const {
+  std::vector<const RunResult *> found;
+  if (!reference.runs) {
+    if (run != nullptr)
+      found.push_back(run);
+  } else {
+    const Selector selector(capsule::runs_of(reference));
+    for (const RunResult &candidate : runs_of(case_of(reference).value_or(case_name)))
+      if (selector.selects(candidate.input.physics))
+        found.push_back(&candidate);
+  }
+  if (found.empty())
+    throw NoValue("no such run");
+  return found;
+}
+
+const Columns &RunTable::columns(const fs::path &file) const {
+  const auto known = files_.find(file);
+  return known != files_.end() ? known->second : files_.emplace(file, read_columns(file)).first->second;
+}
+
+bool RunTable::has_column(const fs::path &file, const std::string &name) const {
+  std::error_code ignored;
+  return fs::exists(file, ignored) && columns(file).contains(name);
+}
+
+Values RunTable::values_in(const RunResult &run, const Reference &reference) const {
+  if (reference.places.empty()) {
+    const auto found = run.summary->quantities.find(reference.name);
+    if (found != run.summary->quantities.end())
+      return {found->second};
+    if (const auto value = key_value(reference.name, run.input.physics))
+      return {*value};
+  } else if (has_column(run.directory / "series.csv", reference.name)) {
+    if (reference.places.size() > 1)
+      throw NoValue("no value");
+    const Columns &series = columns(run.directory / "series.csv");
+    return values_at(column(series, reference.name), column(series, reference.places[0].column),
+                     reference.places[0]);
+  }
+  if (!has_column(run.directory / "profiles.csv", reference.name))
+    throw NoValue("no value");
+  return profile_values(columns(run.directory / "profiles.csv"), reference);
+}
+
+Values RunTable::values(const Reference &reference, const std::string &case_name,
+                        const RunResult *run) const {
+  Values values;
+  for (const RunResult *one : selected(reference, case_name, run)) {
+    const Values more = values_in(*one, reference);
+    values.insert(values.end(), more.begin(), more.end());
+  }
+  return values;
+}
+
+std::optional<double> RunTable::error_estimate(const Expression &expression, const std::string &case_name,
+                                               const RunResult *run) const {
+  // What the expression becomes when the values of one reference, taken from one run, are off by their error.
+  struct Off {
+    std::size_t reference; // counted in the order of evaluation
+    const RunResult *run;
+    double error;
+  };
+  const std::vector<Reference> references = expression.references();
+  std::vector<Off> all;
+  try {
+    for (std::size_t i = 0; i < references.size(); ++i)
+      for (const RunResult *one : selected(references[i], case_name, run)) {
+        const Reference &reference = references[i];
+        std::string name = reference.name;
+        if (!reference.places.empty())
+          name += '@' + reference.places[0].column;
+        const auto error = one->summary->error_estimate.find(name);
+        if (error != one->summary->error_estimate.end())
+          all.push_back({i, one, error->second});
+        else if (!reference.places.empty() || !key_value(reference.name, one->input.physics))
+          return std::nullopt;
+      }
+    const auto value_with = [&](const Off *off) {
+      std::size_t count = 0;
+      return expression.value([&](const Reference &reference) {
+        const std::size_t here = count++;
+        Values values;
+        for (const RunResult *one : selected(reference, case_name, run))
+          for (const double value : values_in(*one, reference))
+            values.push_back(off != nullptr && off->reference == here && off->run == one ? value + off->error
+                                                                                         : value);
+        return values;
+      });
+    };
+    const double value = value_with(nullptr);
+    double sum = 0;
+    for (const Off &off : all)
+      sum += std::abs(value_with(&off) - value);
+    return sum;
+  } catch (const NoValue &) {
+    return std::nullopt;
+  }
+}
+
+} // namespace capsule

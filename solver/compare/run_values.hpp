@@ -1,0 +1,68 @@
+#pragma once
+// What the names of an expression (expression.hpp) mean in a run:
+//   a quantity of summary.json, the end of the run      pressure_drop, peak_pressure_drop
+//   a key of the case                                   capsule.radius, or radius
+//   a column of series.csv at a place                   x_g@time=18.7, min_film@x_g=-4..4
+//   a column of profiles.csv: of the last profile, or   r, tension_meridional@x_g=1@S=0
+//   of the one at a place (x_g or time); all points, or those at a place S
+// Throws FileError; NoValue ("no such run", "no value") where there is nothing.
+#include "compare/expression.hpp"
+#include "program/case_runs.hpp"
+#include <map>
+#include <utility>
+
+namespace capsule {
+
+// "viscosity_ratio=0.2|1; law=skalak": keys with the values that are wanted.
+class Selector {
+public:
+  // Throws InputError with one line that says what is wrong.
+  explicit Selector(const std::string &text);
+  bool selects(const Case &physics) const;
+
+private:
+  std::vector<std::pair<std::string, std::vector<std::string>>> wanted_;
+};
+
+// The columns of a CSV file, by name; numbers only.
+using Columns = std::map<std::string, Values>;
+
+// The runs of several cases. Files are read when first asked for.
+class RunTable {
+public:
+  void add(const std::string &case_name, const std::vector<RunResult> &runs);
+  bool has(const std::string &case_name) const { return runs_.contains(case_name); }
+  std::vector<std::string> cases() const;
+  const std::vector<RunResult> &runs_of(const std::string &case_name) const;
+
+  // What a reference means to a row that speaks of this case and, unless it names runs itself, of this run.
+  Values values(const Reference &reference, const std::string &case_name, const RunResult *run) const;
+
+  // A bound of the error of an expression: what the estimated errors of all values in it change, added. None if
+  // one of the values has no estimate, or the expression has no value.
+  std::optional<double> error_estimate(const Expression &expression, const std::string &case_name,
+                                       const RunResult *run) const;
+
+private:
+  std::vector<const RunResult *> selected(const Reference &reference, const std::string &case_name,
+                                          const RunResult *run) const;
+  const Columns &columns(const std::filesystem::path &file) const;
+  // Whether there is such a file (a study leaves a summary only) with such a column.
+  bool has_column(const std::filesystem::path &file, const std::string &name) const;
+  Values values_in(const RunResult &run, const Reference &reference) const;
+
+  std::map<std::string, std::vector<RunResult>> runs_;
+  mutable std::map<std::filesystem::path, Columns> files_; // read so far
+};
+
+// What stands between a reference's braces: "another-case", or nothing; the selector after it.
+std::optional<std::string> case_of(const Reference &reference);
+std::string runs_of(const Reference &reference);
+
+// Throws FileError, with the line that is not one number a name.
+Columns read_columns(const std::filesystem::path &file);
+// Fields between commas; a field may stand in double quotes, doubled inside.
+std::vector<std::string> split_csv(const std::string &line);
+std::vector<std::string> read_lines(const std::filesystem::path &file);
+
+} // namespace capsule

@@ -1,0 +1,15 @@
+#pragma once
+// What a flow solver returns for one shape of the membrane.
+#include "base/linear_algebra.hpp"
+#include <limits>
+
+namespace capsule {
+
+struct FlowState {
+  Vector velocity;          // of the nodes, 2N: axial, then radial
+  double pressure_drop = 0; // Delta P of eq. 15 as a positive extra drop
+  // Delta P by the reciprocal theorem, where it was asked for.
+  double pressure_drop_reciprocal = std::numeric_limits<double>::quiet_NaN();
+};
+
+} // namespace capsule

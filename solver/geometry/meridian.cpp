@@ -1,0 +1,202 @@
+#include "geometry/meridian.hpp"
+#include <array>
+#include <cmath>
+#include <gsl/gsl_bspline.h>
+#include <gsl/gsl_errno.h>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+namespace capsule {
+namespace {
+
+using std::numbers::pi;
+
+void require(bool condition, const char *what) {
+  if (!condition) {
+    throw std::invalid_argument(what);
+  }
+}
+
+// ---- Spectral basis ----
+
+// Legendre polynomial P_n(cos zeta) and its derivative in zeta, 0 < zeta <= pi/2. The recurrence runs on the
+// differences P_(l+1) - P_l and on 1 - cos(zeta), whose digits the angle keeps near the pole.
+struct Legendre {
+  double value, slope;
+};
+Legendre legendre(int n, double zeta) {
+  const double sine_of_half = std::sin(0.5 * zeta);
+  const double depth = 2 * sine_of_half * sine_of_half;
+  double value = 1, step = -depth;
+  for (int l = 1; l < n; ++l) {
+    value += step;
+    step = (l * step - (2 * l + 1) * depth * value) / (l + 1);
+  }
+  value += step;
+  return {value, n * (step - depth * value) / std::sin(zeta)};
+}
+
+// Nodes and weights of Gauss's rule in the angle: the weights of the integral over cos(zeta) are
+// 2/(dP_n/dzeta)^2. Tricomi's estimate is close enough for Newton's method to end in five steps.
+void set_gauss_legendre(int n, MeridianBasis &basis) {
+  basis.nodes.resize(n);
+  basis.weights.resize(n);
+  for (int j = 0; j < (n + 1) / 2; ++j) {
+    double zeta = pi * (j + 0.75) / (n + 0.5);
+    for (int step = 0; step < 5; ++step) {
+      const Legendre p = legendre(n, zeta);
+      zeta -= p.value / p.slope;
+    }
+    const double slope = legendre(n, zeta).slope;
+    basis.nodes(n - 1 - j) = pi - zeta;
+    basis.nodes(j) = zeta;
+    basis.weights(j) = basis.weights(n - 1 - j) = 2 / (slope * slope * std::sin(zeta));
+  }
+}
+
+// Derivatives of cos(k zeta) when quarter_turns = 0, of sin(k zeta) when it is -1.
+Matrix waves(const Vector &points, Eigen::Index n, int first_k, int quarter_turns, int derivative) {
+  Matrix values(points.size(), n);
+  const int turn = (quarter_turns + derivative + 4) % 4;
+  for (Eigen::Index column = 0; column < n; ++column) {
+    const auto k = static_cast<double>(first_k + column);
+    const auto angle = (k * points).array();
+    const double factor = std::pow(k, derivative) * (turn == 1 || turn == 2 ? -1 : 1);
+    values.col(column) = factor * (turn % 2 == 0 ? Vector(angle.cos()) : Vector(angle.sin()));
+  }
+  return values;
+}
+
+// ---- Splines ----
+
+struct FreeBspline {
+  void operator()(gsl_bspline_workspace *workspace) const { gsl_bspline_free(workspace); }
+};
+using Bspline = std::unique_ptr<gsl_bspline_workspace, FreeBspline>;
+
+void check(int gsl_status) {
+  require(gsl_status == GSL_SUCCESS, gsl_strerror(gsl_status));
+}
+
+// B-splines with simple knots at the nodes. The one place where GSL is prevented from ending the program: its
+// return codes are checked instead.
+Bspline bspline(const Vector &nodes, int degree) {
+  gsl_set_error_handler_off();
+  Bspline workspace(gsl_bspline_alloc(degree + 1, nodes.size()));
+  const auto breakpoints = gsl_vector_const_view_array(nodes.data(), nodes.size());
+  check(gsl_bspline_knots(&breakpoints.vector, workspace.get()));
+  return workspace;
+}
+
+// The few B-splines that do not vanish at a point: a row per B-spline, a column per derivative.
+struct LocalBsplines {
+  Eigen::Index first;
+  RowMatrix values;
+};
+LocalBsplines local_bsplines(gsl_bspline_workspace *workspace, double point, int derivative) {
+  LocalBsplines local{0, RowMatrix(gsl_bspline_order(workspace), derivative + 1)};
+  auto values = gsl_matrix_view_array(local.values.data(), local.values.rows(), local.values.cols());
+  std::size_t first = 0, last = 0;
+  check(gsl_bspline_deriv_eval_nonzero(point, derivative, &values.matrix, &first, &last, workspace));
+  local.first = static_cast<Eigen::Index>(first);
+  return local;
+}
+
+Matrix spline_values(const Vector &nodes, int degree, const Matrix &coefficients, const Vector &points,
+                     int derivative) {
+  const Bspline workspace = bspline(nodes, degree);
+  Matrix values(points.size(), coefficients.cols());
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    require(points(i) >= nodes(0) && points(i) <= nodes(nodes.size() - 1), "a point outside of the spline");
+    const auto [first, local] = local_bsplines(workspace.get(), points(i), derivative);
+    values.row(i).noalias() =
+        local.col(derivative).transpose() * coefficients.middleRows(first, local.rows());
+  }
+  return values;
+}
+
+// B-spline coefficients from the nodal values, the given derivatives at the first node and those at the last.
+// Derivatives are scaled with the element next to the end: the matrix to be inverted is then free of units.
+Matrix spline_coefficients(const Vector &nodes, int degree, const std::vector<int> &first_end,
+                           const std::vector<int> &last_end) {
+  const Eigen::Index n = nodes.size(), size = n + degree - 1;
+  require((nodes.tail(n - 1) - nodes.head(n - 1)).minCoeff() > 0, "the nodes of a spline must ascend");
+  const Bspline workspace = bspline(nodes, degree);
+  Matrix conditions = Matrix::Zero(size, size);
+  Vector scale = Vector::Ones(size);
+  Eigen::Index row = 0;
+  const auto add = [&](double point, int derivative, double element) {
+    const auto [first, local] = local_bsplines(workspace.get(), point, derivative);
+    scale(row) = std::pow(element, derivative);
+    conditions.row(row).segment(first, local.rows()) = scale(row) * local.col(derivative).transpose();
+    ++row;
+  };
+  for (const double node : nodes) {
+    add(node, 0, 1);
+  }
+  for (const int derivative : first_end) {
+    add(nodes(0), derivative, nodes(1) - nodes(0));
+  }
+  for (const int derivative : last_end) {
+    add(nodes(n - 1), derivative, nodes(n - 1) - nodes(n - 2));
+  }
+  return conditions.partialPivLu().inverse() * scale.asDiagonal();
+}
+
+// The integral of a B-spline is its support over its order.
+Vector bspline_integrals(const Vector &nodes, int degree) {
+  const Eigen::Index last = nodes.size() - 1;
+  Vector integrals(nodes.size() + degree - 1);
+  for (Eigen::Index i = 0; i < integrals.size(); ++i) {
+    integrals(i) =
+        (nodes(std::min(i + 1, last)) - nodes(std::max<Eigen::Index>(i - degree, 0))) / (degree + 1);
+  }
+  return integrals;
+}
+
+} // namespace
+
+MeridianBasis spectral_basis(int nodes) {
+  require(nodes >= 3, "a spectral basis needs three nodes");
+  MeridianBasis basis;
+  set_gauss_legendre(nodes, basis);
+  // Both matrices are as well conditioned as those of the cosine and sine transforms, whose nodes are close
+  // by.
+  basis.even_from_nodes = waves(basis.nodes, nodes, 0, 0, 0).partialPivLu().inverse();
+  basis.odd_from_nodes = waves(basis.nodes, nodes, 1, -1, 0).partialPivLu().inverse();
+  return basis;
+}
+
+MeridianBasis spline_basis(int elements, int degree) {
+  require(degree == 3 || degree == 5 || degree == 7, "the degree of a meridian's spline is 3, 5 or 7");
+  require(elements >= degree, "a spline needs as many elements as its degree");
+  MeridianBasis basis;
+  basis.spline_degree = degree;
+  basis.nodes = Vector::LinSpaced(elements + 1, 0, pi);
+  std::vector<int> odd_derivatives, even_derivatives;
+  for (int derivative = 1; derivative < degree; derivative += 2) {
+    odd_derivatives.push_back(derivative);
+    even_derivatives.push_back(derivative + 1);
+  }
+  const Eigen::Index n = elements + 1;
+  basis.even_from_nodes =
+      spline_coefficients(basis.nodes, degree, odd_derivatives, odd_derivatives).leftCols(n);
+  basis.odd_from_nodes =
+      spline_coefficients(basis.nodes, degree, even_derivatives, even_derivatives).leftCols(n);
+  basis.weights = basis.odd_from_nodes.transpose() * bspline_integrals(basis.nodes, degree);
+  return basis;
+}
+
+Matrix MeridianBasis::even(const Vector &points, int derivative) const {
+  return spline_degree == 0 ? Matrix(waves(points, size(), 0, 0, derivative) * even_from_nodes)
+                            : spline_values(nodes, spline_degree, even_from_nodes, points, derivative);
+}
+
+Matrix MeridianBasis::odd(const Vector &points, int derivative) const {
+  return spline_degree == 0 ? Matrix(waves(points, size(), 1, -1, derivative) * odd_from_nodes)
+                            : spline_values(nodes, spline_degree, odd_from_nodes, points, derivative);
+}
+
+} // namespace capsule

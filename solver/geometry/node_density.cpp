@@ -1,0 +1,178 @@
+#include "geometry/node_density.hpp"
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace capsule {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Of equal parts of [0, pi].
+Vector midpoints(Eigen::Index parts) {
+  return (Eigen::ArrayXd::LinSpaced(parts, 0, static_cast<double>(parts - 1)) + 0.5) * pi /
+         static_cast<double>(parts);
+}
+
+// cos(k a) or sin(k a) at points a, k = 0 ... waves - 1.
+Eigen::ArrayXXd cosines(const Eigen::ArrayXd &a, Eigen::Index waves) {
+  return (a.matrix() * Vector::LinSpaced(waves, 0, static_cast<double>(waves - 1)).transpose()).array().cos();
+}
+Eigen::ArrayXXd sines(const Eigen::ArrayXd &a, Eigen::Index waves) {
+  return (a.matrix() * Vector::LinSpaced(waves, 0, static_cast<double>(waves - 1)).transpose()).array().sin();
+}
+
+// The angle as a function of zeta and its slope: zeta and an odd rest.
+struct AngleMap {
+  explicit AngleMap(const Membrane &membrane)
+      : rest(membrane.basis.odd_from_nodes * (membrane.node_angle - membrane.basis.nodes)) {}
+  Eigen::ArrayXd value(const Eigen::ArrayXd &zeta) const {
+    return zeta + (sines(zeta, rest.size() + 1).rightCols(rest.size()).matrix() * rest).array();
+  }
+  Eigen::ArrayXd slope(const Eigen::ArrayXd &zeta) const {
+    const Eigen::Index n = rest.size();
+    const Vector k = Vector::LinSpaced(n, 1, static_cast<double>(n));
+    return 1 + (cosines(zeta, n + 1).rightCols(n).matrix() * k.cwiseProduct(rest)).array();
+  }
+  Eigen::ArrayXd bend(const Eigen::ArrayXd &zeta) const {
+    const Eigen::Index n = rest.size();
+    const Vector k = Vector::LinSpaced(n, 1, static_cast<double>(n));
+    return -(sines(zeta, n + 1).rightCols(n).matrix() * k.cwiseProduct(k).cwiseProduct(rest)).array();
+  }
+  Vector rest;
+};
+
+// Where a function that grows from 0 to pi on [0, pi], with given slope, takes values: from a table, then by
+// Newton's method.
+template <class Value, class Slope>
+Eigen::ArrayXd inverted(const Value &value, const Slope &slope, const Eigen::ArrayXd &at) {
+  constexpr int newton_steps = 4;
+  const Eigen::ArrayXd table_at = Eigen::ArrayXd::LinSpaced(1001, 0, pi);
+  const Eigen::ArrayXd table = value(table_at);
+  Eigen::ArrayXd result(at.size());
+  for (Eigen::Index k = 0; k < at.size(); ++k) {
+    const Eigen::Index above = std::clamp<Eigen::Index>(
+        std::upper_bound(table.begin(), table.end(), at[k]) - table.begin(), 1, 1000);
+    const double part = (at[k] - table[above - 1]) / (table[above] - table[above - 1]);
+    result[k] = table_at[above - 1] + part * (table_at[above] - table_at[above - 1]);
+  }
+  for (int step = 0; step < newton_steps; ++step)
+    result += (at - value(result)) / slope(result);
+  return result;
+}
+
+// Of a smooth density of nodes per angle the logarithm: coefficients of its cosines.
+Vector density_logarithm(const Membrane &membrane, const Vector &position) {
+  constexpr double shortest_wave = 24; // about
+  constexpr Eigen::Index waves = 64, points = 1024;
+  const MeridianBasis &basis = membrane.basis;
+  const Eigen::Index n = basis.size();
+  const AngleMap map(membrane);
+  const Vector zeta = midpoints(points);
+  const Eigen::ArrayXd slope = map.slope(zeta), bend = map.bend(zeta);
+  const auto by_angle = [&](const Eigen::ArrayXd &first, const Eigen::ArrayXd &second) -> Eigen::ArrayXd {
+    const Eigen::ArrayXd once = first / slope;
+    return once.square() + ((second - once * bend) / slope.square()).square();
+  };
+  const Eigen::ArrayXd squares =
+      by_angle(basis.even(zeta, 1) * position.head(n), basis.even(zeta, 2) * position.head(n)) +
+      by_angle(basis.odd(zeta, 1) * position.tail(n), basis.odd(zeta, 2) * position.tail(n));
+  const Eigen::ArrayXd density = 0.5 * (1 + squares / squares.minCoeff()).log();
+  Vector coefficients =
+      cosines(map.value(zeta), waves).matrix().transpose() * (density * slope * 2 / points).matrix();
+  coefficients[0] /= 2;
+  for (Eigen::Index k = 0; k < waves; ++k)
+    coefficients[k] *= std::exp(-std::pow(static_cast<double>(k) / shortest_wave, 2));
+  return coefficients;
+}
+
+// The angles at which the integral of a density has grown evenly with zeta.
+Vector angles_of_density(const Vector &logarithm, const Vector &zeta) {
+  constexpr Eigen::Index waves = 256, points = 1024;
+  const Vector angle = midpoints(points);
+  const Vector density = (cosines(angle, logarithm.size()).matrix() * logarithm).array().exp();
+  Vector parts = cosines(angle, waves).matrix().transpose() * density;
+  parts *= 2 / parts[0];
+  parts[0] = 1;
+  Vector integrals = parts;
+  integrals.tail(waves - 1).array() /= Eigen::ArrayXd::LinSpaced(waves - 1, 1, waves - 1);
+  integrals[0] = 0;
+  return inverted(
+      [&](const Eigen::ArrayXd &a) -> Eigen::ArrayXd {
+        return a + (sines(a, waves).matrix() * integrals).array();
+      },
+      [&](const Eigen::ArrayXd &a) -> Eigen::ArrayXd { return cosines(a, waves).matrix() * parts; },
+      zeta.array());
+}
+
+} // namespace
+
+Vector suitable_angles(const Membrane &membrane, const Vector &position, const MeridianBasis &basis) {
+  const Vector logarithm = density_logarithm(membrane, position);
+  // The shape has no more waves than the nodes that it comes from: fewer tell which density resolves it best.
+  const MeridianBasis fewer =
+      spectral_basis(std::max(3, static_cast<int>(0.6 * static_cast<double>(membrane.basis.size()))));
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  for (const double strength : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const Vector angles = angles_of_density(strength * logarithm, fewer.nodes);
+    const double unresolved = unresolved_part(fewer, at_angles(angles, membrane, position));
+    if (unresolved < least) {
+      least = unresolved;
+      best = strength;
+    }
+  }
+  return angles_of_density(best * logarithm, basis.nodes);
+}
+
+Vector at_angles(const Vector &angles, const Membrane &membrane, const Vector &position) {
+  const MeridianBasis &basis = membrane.basis;
+  const Eigen::Index n = basis.size();
+  const AngleMap map(membrane);
+  const Vector zeta = inverted([&](const Eigen::ArrayXd &a) { return map.value(a); },
+                               [&](const Eigen::ArrayXd &a) { return map.slope(a); }, angles.array());
+  Vector moved(2 * zeta.size());
+  moved << basis.even(zeta, 0) * position.head(n), basis.odd(zeta, 0) * position.tail(n);
+  return moved;
+}
+
+Vector halved_edges(const MeridianBasis &basis, const Vector &position, const Vector &edges,
+                    double most_turning) {
+  constexpr Eigen::Index points = 2048;
+  constexpr double shortest = 8 * pi / points; // even at a cusp
+  const Eigen::Index n = basis.size();
+  const Vector zeta = midpoints(points);
+  const Eigen::ArrayXd x_1 = basis.even(zeta, 1) * position.head(n),
+                       x_2 = basis.even(zeta, 2) * position.head(n);
+  const Eigen::ArrayXd r_1 = basis.odd(zeta, 1) * position.tail(n),
+                       r_2 = basis.odd(zeta, 2) * position.tail(n);
+  const Eigen::ArrayXd turning =
+      (x_1 * r_2 - r_1 * x_2).abs() / (x_1.square() + r_1.square()) * (pi / points);
+  const auto turning_between = [&](double from, double to) {
+    const auto place = [&](double at) {
+      return std::clamp<Eigen::Index>(std::lround(at / pi * points), 0, points);
+    };
+    return turning.segment(place(from), place(to) - place(from)).sum();
+  };
+  std::vector<double> result{edges[0]};
+  const std::function<void(double, double)> add = [&](double from, double to) {
+    if (to - from > shortest && turning_between(from, to) > most_turning) {
+      add(from, (from + to) / 2);
+      add((from + to) / 2, to);
+    } else
+      result.push_back(to);
+  };
+  for (Eigen::Index k = 1; k < edges.size(); ++k)
+    add(edges[k - 1], edges[k]);
+  return Eigen::Map<Vector>(result.data(), std::ssize(result));
+}
+
+double unresolved_part(const MeridianBasis &basis, const Vector &position) {
+  const Eigen::Index n = basis.size(), last = n / 10 + 1;
+  return std::hypot((basis.even_from_nodes.bottomRows(last) * position.head(n)).norm(),
+                    (basis.odd_from_nodes.bottomRows(last) * position.tail(n)).norm());
+}
+
+} // namespace capsule

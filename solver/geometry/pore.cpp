@@ -1,0 +1,153 @@
+#include "geometry/pore.hpp"
+#include "base/failure.hpp"
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numbers>
+
+namespace capsule {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool right_angled(const Pore &pore) {
+  return pore.cosine == 0;
+}
+
+// The hyperbola is traced by w >= 0:
+//   x = -k c sinh w,  r = sqrt(1 + k^2 sinh^2 w),  k = cos(alpha), c = cot(alpha),
+// whose speed k c cosh^2 w/r is analytic in a strip of half-width pi/2 whatever alpha is: equal steps in w
+// resolve the lip, where the radius of curvature is c^2.
+struct HyperbolaPoint {
+  double x, r, slope_x, slope_r; // position and derivative with respect to w
+};
+
+HyperbolaPoint hyperbola_point(const Pore &pore, double w) {
+  const double k = pore.cosine, c = k / pore.sine;
+  const double r = std::hypot(1.0, k * std::sinh(w));
+  return {-k * c * std::sinh(w), r, -k * c * std::cosh(w), k * k * std::sinh(w) * std::cosh(w) / r};
+}
+
+double hyperbola_speed(const Pore &pore, double w) {
+  const HyperbolaPoint p = hyperbola_point(pore, w);
+  return std::hypot(p.slope_x, p.slope_r);
+}
+
+// Arc length from the lip.
+double hyperbola_arc(const Pore &pore, double w) {
+  const int pieces = static_cast<int>(std::ceil(w)) + 1;
+  const double width = w / pieces;
+  double sum = 0;
+  for (int i = 0; i < pieces; ++i)
+    sum += boost::math::quadrature::gauss<double, 20>::integrate(
+        [&](double t) { return hyperbola_speed(pore, t); }, i * width, (i + 1) * width);
+  return sum;
+}
+
+// Inverse of hyperbola_arc: Newton's method from the right, where the arc is a convex function of w.
+double hyperbola_parameter(const Pore &pore, double arc) {
+  if (arc <= 0)
+    return 0;
+  double w = std::asinh(arc * pore.sine / (pore.cosine * pore.cosine)); // from arc > |x|
+  for (int i = 0; i < 100; ++i) {
+    const double step = (hyperbola_arc(pore, w) - arc) / hyperbola_speed(pore, w);
+    w -= step;
+    if (std::abs(step) <= 4e-16 * w)
+      break;
+  }
+  return w;
+}
+
+// Signed distance to the hyperbola of a point with x < 0. With t = sinh(w) the foot is the root of
+//   f(t) = (t/sin^2 - r t/rho) cos^2 + cos cot x,  rho^2 = 1 + cos^2 t^2,
+// half the derivative of the squared distance. The solid wall is convex, so the foot of a point of the liquid
+// is unique: f changes sign there once.
+double hyperbola_distance(const Pore &pore, double x, double r) {
+  const double k = pore.cosine, c = k / pore.sine;
+  const auto radius = [&](double t) { return std::sqrt(1 + k * k * t * t); };
+  // The foot lies between the lip and the point of the wall at the distance of (x, r) from the origin, or at
+  // its x. Newton's method, and halving where it would leave the bracket.
+  double low = 0;
+  double high = (std::hypot(x, r) + 1) * pore.sine / (k * k);
+  double t = -x / (k * c);
+  for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
+    const double rho = radius(t);
+    const double value = k * k * t * (1 / (pore.sine * pore.sine) - r / rho) + k * c * x;
+    const double slope = k * k * (1 / (pore.sine * pore.sine) - r / (rho * rho * rho));
+    (value < 0 ? low : high) = t;
+    const double newton = t - value / slope;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    const double step = std::abs(next - t);
+    t = next;
+    if (step <= 1e-15 * high)
+      break;
+  }
+  const double distance = std::hypot(x + k * c * t, r - radius(t));
+  return r <= wall_radius(pore, x) ? distance : -distance;
+}
+
+double right_angle_distance(double x, double r) {
+  return r > 1 ? -x : std::hypot(x, 1 - r);
+}
+
+} // namespace
+
+Pore make_pore(const Case &physics) {
+  if (physics.pore.shape == PoreShape::none)
+    throw InputError("pore.shape = \"none\" has no wall");
+  const double degrees = physics.pore.opening_angle_deg;
+  if (!(degrees > 0 && degrees <= 90))
+    throw InputError(fmt::format("pore.opening_angle_deg = {} is not in (0, 90]", degrees));
+  Pore pore;
+  pore.shape = physics.pore.shape;
+  pore.exit_x = physics.pore.exit_x;
+  pore.entrance_distance = physics.pore.entrance_distance;
+  if (!(pore.exit_x > 0))
+    throw InputError(fmt::format("pore.exit_x = {} is not positive", pore.exit_x));
+  if (!(pore.entrance_distance > 1))
+    throw InputError(fmt::format("pore.entrance_distance = {} is not above 1", pore.entrance_distance));
+  const double alpha = degrees * std::numbers::pi / 180;
+  pore.sine = std::sin(alpha);
+  pore.cosine = degrees == 90 ? 0 : std::cos(alpha);
+  const double reach = std::sqrt(pore.entrance_distance * pore.entrance_distance - 1);
+  if (pore.shape == PoreShape::tube)
+    pore.entrance_arc = pore.exit_x + pore.entrance_distance;
+  else if (right_angled(pore))
+    pore.entrance_arc = pore.exit_x + pore.entrance_distance - 1;
+  else // on the cap r = cosh u with sinh u = sin(alpha) reach = k sinh w
+    pore.entrance_arc = pore.exit_x + hyperbola_arc(pore, std::asinh(pore.sine * reach / pore.cosine));
+  return pore;
+}
+
+WallPoint wall_point(const Pore &pore, double arc) {
+  const double beyond = arc - pore.exit_x; // of the lip
+  if (pore.shape == PoreShape::tube || beyond <= 0)
+    return {-beyond, 1, 0, 1};
+  if (right_angled(pore))
+    return {0, 1 + beyond, 1, 0};
+  const HyperbolaPoint p = hyperbola_point(pore, hyperbola_parameter(pore, beyond));
+  const double speed = std::hypot(p.slope_x, p.slope_r);
+  return {p.x, p.r, p.slope_r / speed, -p.slope_x / speed};
+}
+
+double wall_radius(const Pore &pore, double x) {
+  if (pore.shape == PoreShape::tube || x >= 0)
+    return 1;
+  return right_angled(pore) ? infinity : std::hypot(1.0, x * pore.sine / pore.cosine);
+}
+
+double wall_slope(const Pore &pore, double x) {
+  if (pore.shape == PoreShape::tube || x >= 0)
+    return 0;
+  const double tangent = pore.sine / pore.cosine;
+  return right_angled(pore) ? -infinity : tangent * tangent * x / wall_radius(pore, x);
+}
+
+double wall_distance(const Pore &pore, double x, double r) {
+  if (pore.shape == PoreShape::tube || x >= 0)
+    return 1 - r;
+  return right_angled(pore) ? right_angle_distance(x, r) : hyperbola_distance(pore, x, r);
+}
+
+} // namespace capsule

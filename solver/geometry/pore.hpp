@@ -1,0 +1,38 @@
+#pragma once
+// The wall of the pore, eq. 1: a hyperbola r^2 - x^2 tan^2(alpha) = 1 for x <= 0 that runs into the tube r =
+// 1 for x > 0. Lengths are scaled with R_t.
+//   The wall is described by arc length from the exit end (L_P, 1): the lip (0, 1) is at arc L_P, and the
+//   wall ends at entrance_arc, where the hyperbola meets the entrance section S_E, the cap of the sphere x^2
+//   + r^2 = L_E^2. The tangent is continuous at the lip, the curvature is not: it jumps from 0 to
+//   tan^2(alpha). With alpha = 90 degrees the hyperbola is the flat wall x = 0, r >= 1 and the lip a right
+//   angle. PoreShape::tube is the straight tube r = 1 from L_P to x = -L_E.
+#include "case/case.hpp"
+
+namespace capsule {
+
+struct Pore {
+  PoreShape shape = PoreShape::hyperbolic;
+  double sine = 0; // of alpha
+  double cosine = 0;
+  double exit_x = 0;            // L_P, also the arc of the lip
+  double entrance_distance = 0; // L_E
+  double entrance_arc = 0;      // arc length of the whole wall
+};
+// Throws InputError for PoreShape::none, which has no wall, and for L_E or alpha out of range.
+Pore make_pore(const Case &physics);
+
+struct WallPoint {
+  double x, r;
+  double normal_x, normal_r; // out of the liquid
+};
+// At the lip of a right-angled mouth the normal is the tube's.
+WallPoint wall_point(const Pore &pore, double arc);
+
+// Radius and slope dr/dx of the wall at x; infinite upstream of a right-angled mouth.
+double wall_radius(const Pore &pore, double x);
+double wall_slope(const Pore &pore, double x);
+
+// Distance of a point of the meridian plane to the wall, negative beyond it.
+double wall_distance(const Pore &pore, double x, double r);
+
+} // namespace capsule

@@ -1,0 +1,333 @@
+#include "integrals/ring_kernel.hpp"
+
+#include "integrals/elliptic.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace capsule {
+
+namespace {
+
+// What both kernels need of a target and a ring: d is the distance to the nearest, R to the farthest point.
+struct Pair {
+  double dx;
+  double dr;
+  double r0;
+  double r;
+  double m;
+  double m1;
+  double ln_m1;
+  double over_d2;
+  double over_R2;
+  double over_R;
+};
+
+// Of the vector e from target to ring, whose product with the ring's normal depends on the azimuth.
+struct Normal {
+  double along; // e.n in the target's half plane
+  double r;
+};
+
+struct Components {
+  double xx;
+  double xr;
+  double rx;
+  double rr;
+};
+
+[[gnu::always_inline]] inline Pair pair_of(double dx, double dr, double r0, double r) {
+  const double R2 = dx * dx + (r + r0) * (r + r0);
+  const double difference = 4 * r * r0;
+  const Ratio m1 = ratio(dx * dx + dr * dr, R2, difference);
+  return {.dx = dx,
+          .dr = dr,
+          .r0 = r0,
+          .r = r,
+          .m = difference * m1.over_denominator,
+          .m1 = m1.value,
+          .ln_m1 = m1.natural_logarithm,
+          .over_d2 = m1.over_numerator,
+          .over_R2 = m1.over_denominator,
+          .over_R = std::sqrt(R2) * m1.over_denominator};
+}
+
+// From the integrals B, D and E/d^2. The rings' C drops out: m (D - C) = B - m1 D.
+[[gnu::always_inline]] inline Components stokeslet(const Pair &p, double b, double d, double e_over_d2) {
+  const double f = 4 * p.over_R;
+  const double g = 2 * d * p.over_R2;
+  return {.xx = f * (b + d + p.dx * p.dx * e_over_d2),
+          .xr = f * p.dx * (p.dr * e_over_d2 + p.r0 * g),
+          .rx = f * p.dx * (p.dr * e_over_d2 - p.r * g),
+          .rr = f * (d * (1 + p.m1) - 2 * b + p.dr * p.dr * (e_over_d2 - g))};
+}
+
+[[gnu::always_inline]] inline Components stokeslet(const Pair &p, const EllipticIntegrals &i) {
+  return stokeslet(p, i.b, i.d, (i.b + p.m1 * i.d) * p.over_d2);
+}
+
+// E = B + m1 D has the factor m1, which turns 1/d^2 into 1/R^2.
+[[gnu::always_inline]] inline Components stokeslet(const Pair &p, const EllipticLogarithms &i) {
+  return stokeslet(p, p.m1 * i.b_over_m1, i.d, (i.b_over_m1 + i.d) * p.over_R2);
+}
+
+// The vector from target to ring has the components dx, dr - 2 r c at the target, dr + 2 r0 c at the ring,
+// and e.n = a + b c; I_n = int c^n/Delta^5. Given are 3 a I_0/R^4, 3 I_1/R^4, 3 I_2/R^4 and 3 m I_3/R^2.
+[[gnu::always_inline]] inline Components stresslet(const Pair &p, double a, double b, double a_i0, double i1,
+                                                   double i2, double m_i3) {
+  const double f = std::numbers::inv_pi * p.over_R;
+  const double g = a_i0 + b * i1;
+  const double h = 2 * (a * i1 + b * i2);
+  return {.xx = f * (p.dx * p.dx * g),
+          .xr = f * p.dx * (p.dr * g + p.r0 * h),
+          .rx = f * p.dx * (p.dr * g - p.r * h),
+          .rr = f * (p.dr * p.dr * (g - h) - 4 * p.r * p.r0 * a * i2 - b * m_i3)};
+}
+
+[[gnu::always_inline]] inline Components stresslet(const Pair &p, const Normal &normal,
+                                                   const EllipticIntegrals &i) {
+  const double a = normal.along;
+  const double quintic = (2 + p.m1) * i.b + p.m1 * (1 + 2 * p.m1) * i.d;
+  return stresslet(p, a, 2 * p.r0 * normal.r, (a * p.over_d2) * quintic * p.over_d2,
+                   (i.b + 2 * p.m1 * i.d) * p.over_d2 * p.over_R2, (i.c + 2 * i.d) * p.over_R2 * p.over_R2,
+                   (i.d - 4 * i.c + p.m * (i.c + 2 * i.d)) * p.over_R2);
+}
+
+[[gnu::always_inline]] inline Components stresslet(const Pair &p, const Normal &normal,
+                                                   const EllipticLogarithms &i) {
+  const double a = normal.along;
+  const double over_R4 = p.over_R2 * p.over_R2;
+  return stresslet(p, a, 2 * p.r0 * normal.r, a * i.quintic_over_m1_squared * over_R4,
+                   (i.b_over_m1 + 2 * i.d) * over_R4, (i.c + 2 * i.d) * over_R4,
+                   (i.d - 4 * i.c + p.m * (i.c + 2 * i.d)) * p.over_R2);
+}
+
+[[gnu::always_inline]] inline void store(const KernelRow &out, int k, const Components &value) {
+  out.xx[k] = value.xx;
+  out.xr[k] = value.xr;
+  out.rx[k] = value.rx;
+  out.rr[k] = value.rr;
+}
+
+// The four kernels as the loop sees them: one row of components for each part.
+struct Stokeslet {
+  static constexpr bool takes_normal = false;
+  static constexpr std::size_t parts = 1;
+  [[gnu::always_inline]] static void evaluate(const Pair &p, const Normal & /*normal*/,
+                                              const std::array<KernelRow, parts> &out, int k) {
+    store(out[0], k, stokeslet(p, elliptic_integrals(p.m, p.m1, p.ln_m1)));
+  }
+};
+
+struct Stresslet {
+  static constexpr bool takes_normal = true;
+  static constexpr std::size_t parts = 1;
+  [[gnu::always_inline]] static void evaluate(const Pair &p, const Normal &normal,
+                                              const std::array<KernelRow, parts> &out, int k) {
+    store(out[0], k, stresslet(p, normal, elliptic_integrals(p.m, p.m1, p.ln_m1)));
+  }
+};
+
+struct StokesletSplit {
+  static constexpr bool takes_normal = false;
+  static constexpr std::size_t parts = 2;
+  [[gnu::always_inline]] static void evaluate(const Pair &p, const Normal & /*normal*/,
+                                              const std::array<KernelRow, parts> &out, int k) {
+    store(out[0], k, stokeslet(p, elliptic_integrals(p.m, p.m1, 0)));
+    store(out[1], k, stokeslet(p, elliptic_logarithmic(p.m1)));
+  }
+};
+
+struct StressletSplit {
+  static constexpr bool takes_normal = true;
+  static constexpr std::size_t parts = 2;
+  [[gnu::always_inline]] static void evaluate(const Pair &p, const Normal &normal,
+                                              const std::array<KernelRow, parts> &out, int k) {
+    store(out[0], k, stresslet(p, normal, elliptic_integrals(p.m, p.m1, 0)));
+    store(out[1], k, stresslet(p, normal, elliptic_logarithmic(p.m1)));
+  }
+};
+
+// Where a target and its rings come from. By reference: vector loads of copies that were just made number by number
+// would wait for them.
+struct ByPosition {
+  double x0;
+  double r0;
+  const Rings &rings;
+  [[gnu::always_inline]] Pair pair(int k) const {
+    return pair_of(rings.x[k] - x0, rings.r[k] - r0, r0, rings.r[k]);
+  }
+  [[gnu::always_inline]] Normal normal(const Pair &p, int k) const {
+    return {p.dx * rings.normal_x[k] + p.dr * rings.normal_r[k], rings.normal_r[k]};
+  }
+};
+
+struct BySeparation {
+  double r0;
+  const Rings &rings;
+  const double *dx;
+  const double *dr;
+  const double *along_normal;
+  [[gnu::always_inline]] Pair pair(int k) const { return pair_of(dx[k], dr[k], r0, rings.r[k]); }
+  [[gnu::always_inline]] Normal normal(const Pair & /*p*/, int k) const {
+    return {along_normal[k], rings.normal_r[k]};
+  }
+};
+
+template <class Kernel, class Source>
+[[gnu::always_inline]] inline void evaluate(const Source &source, int ring,
+                                            const std::array<KernelRow, Kernel::parts> &out, int k) {
+  const Pair pair = source.pair(ring);
+  Normal normal{0, 0};
+  if constexpr (Kernel::takes_normal) {
+    normal = source.normal(pair, ring);
+  }
+  Kernel::evaluate(pair, normal, out, k);
+}
+
+// Rings that go through the arithmetic together: the widest vector, or several of narrower ones.
+constexpr int block = 8;
+using Block = std::array<double, block>;
+
+// Fewer rings than a block: the last one is repeated.
+template <class Kernel, class Source>
+[[gnu::always_inline]] inline void few_rings(const Source &source,
+                                             const std::array<KernelRow, Kernel::parts> &out) {
+  const int count = source.rings.count;
+  std::array<std::array<Block, 4>, Kernel::parts> results;
+  std::array<KernelRow, Kernel::parts> rows;
+  for (std::size_t part = 0; part < Kernel::parts; ++part) {
+    auto &[xx, xr, rx, rr] = results[part];
+    rows[part] = {xx.data(), xr.data(), rx.data(), rr.data()};
+  }
+#pragma omp simd
+  for (int k = 0; k < block; ++k) {
+    evaluate<Kernel>(source, std::min(k, count - 1), rows, k);
+  }
+  for (std::size_t part = 0; part < Kernel::parts; ++part) {
+    std::copy_n(rows[part].xx, count, out[part].xx);
+    std::copy_n(rows[part].xr, count, out[part].xr);
+    std::copy_n(rows[part].rx, count, out[part].rx);
+    std::copy_n(rows[part].rr, count, out[part].rr);
+  }
+}
+
+// Whole blocks; the last one overlaps the one before.
+template <class Kernel, class Source>
+[[gnu::always_inline]] inline void all_rings(const Source &source,
+                                             const std::array<KernelRow, Kernel::parts> &out) {
+  const int count = source.rings.count;
+  if (count > 0 && count < block) {
+    few_rings<Kernel>(source, out);
+    return;
+  }
+  for (int first = 0; first < count; first += block) {
+    const int begin = std::min(first, count - block);
+#pragma omp simd
+    for (int k = 0; k < block; ++k) {
+      evaluate<Kernel>(source, begin + k, out, begin + k);
+    }
+  }
+}
+
+// The same loops, compiled once for each class of processors.
+struct Baseline {
+  template <class Kernel, class Source, class... Rows>
+  static void run(const Source &source, const Rows &...rows) {
+    all_rings<Kernel>(source, {rows...});
+  }
+};
+
+#ifdef __x86_64__
+struct Avx2 {
+  template <class Kernel, class Source, class... Rows>
+  [[gnu::target("avx2,fma")]] static void run(const Source &source, const Rows &...rows) {
+    all_rings<Kernel>(source, {rows...});
+  }
+};
+
+struct Avx512 {
+  template <class Kernel, class Source, class... Rows>
+  [[gnu::target("avx512f,avx512dq,avx512vl,fma")]] static void run(const Source &source,
+                                                                   const Rows &...rows) {
+    all_rings<Kernel>(source, {rows...});
+  }
+};
+#endif
+
+template <class Processor, class Kernel>
+void by_position(double x0, double r0, const Rings &rings, const KernelRow &out) {
+  Processor::template run<Kernel>(ByPosition{x0, r0, rings}, out);
+}
+
+template <class Processor, class Kernel>
+void by_separation(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
+                   const KernelRow &logarithmic) {
+  Processor::template run<Kernel>(
+      BySeparation{r0, rings, apart.col(0).data(), apart.col(1).data(), apart.col(2).data()}, smooth,
+      logarithmic);
+}
+
+template <class Processor>
+RingKernels kernels_for(const std::string &instructions) {
+  return {instructions, by_position<Processor, Stokeslet>, by_position<Processor, Stresslet>,
+          by_separation<Processor, StokesletSplit>, by_separation<Processor, StressletSplit>};
+}
+
+const RingKernels &best() {
+  static const RingKernels kernels = available_ring_kernels().front();
+  return kernels;
+}
+
+} // namespace
+
+std::vector<RingKernels> available_ring_kernels() {
+  std::vector<RingKernels> kernels;
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
+    kernels.push_back(kernels_for<Avx512>("avx512"));
+  }
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    kernels.push_back(kernels_for<Avx2>("avx2"));
+  }
+#endif
+  kernels.push_back(kernels_for<Baseline>("baseline"));
+  return kernels;
+}
+
+Separations separations(double x0, double r0, const Rings &rings) {
+  const auto array = [&](const double *values) {
+    return Eigen::Map<const Eigen::ArrayXd>(values, rings.count);
+  };
+  Separations apart(rings.count, 3);
+  apart.col(0) = array(rings.x) - x0;
+  apart.col(1) = array(rings.r) - r0;
+  apart.col(2) = apart.col(0).array() * array(rings.normal_x) + apart.col(1).array() * array(rings.normal_r);
+  return apart;
+}
+
+void ring_stokeslet(double x0, double r0, const Rings &rings, const KernelRow &out) {
+  best().stokeslet(x0, r0, rings, out);
+}
+
+void ring_stresslet(double x0, double r0, const Rings &rings, const KernelRow &out) {
+  best().stresslet(x0, r0, rings, out);
+}
+
+void ring_stokeslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
+                          const KernelRow &logarithmic) {
+  best().stokeslet_split(r0, rings, apart, smooth, logarithmic);
+}
+
+void ring_stresslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
+                          const KernelRow &logarithmic) {
+  best().stresslet_split(r0, rings, apart, smooth, logarithmic);
+}
+
+} // namespace capsule

@@ -1,0 +1,65 @@
+#pragma once
+// Velocity at a target point made by rings of sources: eq. 18 integrated over the azimuth of the ring.
+//   target (x0, r0) at azimuth 0, rings (x_k, r_k), k = 0 ... count-1, in separate arrays
+//   four components xx, xr, rx, rr: the first letter is the velocity's at the target, the second the
+//     force's (stokeslet) or the velocity's (stresslet) at the ring; no area or line element is included
+//   stokeslet   S_ab = integral of J_ab over the azimuth, 0 to 2 pi
+//   stresslet   T_ab = integral of K_bak n_k over the azimuth, n the ring's normal
+// Sign: with e from target to ring, eq. 18 gives K_ijk n_k = +3/(4 pi) e_i e_j (e.n)/|e|^5. So with n
+// outward the integral of K_ijk n_k over a closed surface is delta_ij times 1 inside, 1/2 on it, 0 outside;
+// and inside v_j = 1/(8 pi) int J_ji f_i dA + int v_i K_ijk n_k dA, f the traction on the side that n
+// points to.
+// Every kernel is the sum smooth - ln(m1) logarithmic, m1 = d^2/R^2, d the distance to the nearest and R to
+// the farthest point of the ring. Both parts are smooth along a smooth meridian, on the scale of the
+// target's distance to the axis; the split form hands them out apart for product quadrature next to the
+// target. There it asks for separations, because differences of positions may have no digits left.
+// Accuracy: 1e-15 of the largest component (stokeslet), 2e-15 of 3/(4 pi) int 1/|e|^2 (stresslet, whose e.n
+// may cancel), typically 2e-16 of both, at any distance from 1e-50 to 1e50 and on the axis too.
+// A ring that coincides with the target gives infinities or NaN: terms like dx^2/d^2 depend on the
+// direction there. Only the logarithmic parts have a limit, and return it. Nothing is thrown.
+#include "base/linear_algebra.hpp"
+#include <string>
+#include <vector>
+
+namespace capsule {
+
+// Where the four components go: arrays of the rings' number.
+struct KernelRow {
+  double *xx;
+  double *xr;
+  double *rx;
+  double *rr;
+};
+
+struct Rings {
+  int count;
+  const double *x;
+  const double *r;
+  const double *normal_x; // unit normals; only the stresslet reads them
+  const double *normal_r;
+};
+
+// The vector e from the target to the rings' points in its half plane, axial and radial, and e.n: three columns.
+using Separations = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+// By differences of positions.
+Separations separations(double x0, double r0, const Rings &rings);
+
+void ring_stokeslet(double x0, double r0, const Rings &rings, const KernelRow &out);
+void ring_stresslet(double x0, double r0, const Rings &rings, const KernelRow &out);
+void ring_stokeslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
+                          const KernelRow &logarithmic);
+void ring_stresslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
+                          const KernelRow &logarithmic);
+
+// The four kernels compiled for a class of processors. The functions above are the first of those that run
+// here; the others are for tests and benchmarks.
+struct RingKernels {
+  std::string instructions; // "avx512", "avx2", "baseline"
+  decltype(&ring_stokeslet) stokeslet;
+  decltype(&ring_stresslet) stresslet;
+  decltype(&ring_stokeslet_split) stokeslet_split;
+  decltype(&ring_stresslet_split) stresslet_split;
+};
+std::vector<RingKernels> available_ring_kernels();
+
+} // namespace capsule

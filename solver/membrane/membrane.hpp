@@ -1,0 +1,79 @@
+#pragma once
+// The membrane as an elastic body: its reference shape sampled on a quadrature along the meridian, its
+// strain, and the energy whose gradient is its load on the liquids.
+#include "case/case.hpp"
+#include "geometry/meridian.hpp"
+#include "law/law.hpp"
+
+namespace capsule {
+
+// Points along the meridian where fields are sampled, and the matrices that take nodal values there.
+struct Sampling {
+  Vector zeta;
+  Vector weights; // integral over [0, pi] = sum weights f
+  Matrix even[3]; // value, first and second derivative in zeta; points x N
+  Matrix odd[3];
+};
+Sampling sample(const MeridianBasis &basis, const Vector &zeta, const Vector &weights);
+
+// The undeformed shape at the points of a sampling, from the same basis as the deformed one: without motion
+// there is no strain, whatever the resolution.
+struct ReferenceShape {
+  Vector radius;                                    // R
+  Vector arc;                                       // S' = dS/dzeta
+  Vector curvature_meridional, curvature_azimuthal; // kappa^0
+};
+
+struct Membrane {
+  MembraneLaw law;
+  double bending_ratio = 0; // delta
+  MeridianBasis basis;
+  Vector node_angle;              // where the nodes lie on the undeformed spheroid
+  Vector reference;               // undeformed position of the nodes, 2N, centred at x = 0
+  Sampling sampling;              // where the energy is integrated: no point at a pole
+  ReferenceShape reference_shape; // at the sampling's points
+  Sampling at_nodes;              // the nodes themselves, with the basis' weights
+};
+
+// A spheroid of semi-axes A (axial) and B with (A B^2)^(1/3) = capsule.radius; node j at X = -A cos(angle_j),
+// R = B sin(angle_j), with angle_j = zeta_j until another node_angle is set and take_physics called.
+Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Vector &zeta,
+                       const Vector &weights);
+
+// The same membrane with the law, the bending stiffness and the undeformed shape of another case.
+void take_physics(const Case &physics, Membrane &membrane);
+
+// Strain, tensions (eqs. 2, 4, 5), curvatures (eq. 3) and moments (eq. 6) at given points, which may be
+// poles: there azimuthal and meridional quantities are the same.
+struct MembraneState {
+  Vector x, r;
+  Vector arc;                // ds/dzeta
+  Vector normal_x, normal_r; // out of the capsule
+  Vector stretch_meridional, stretch_azimuthal;
+  Vector tension_meridional, tension_azimuthal;
+  Vector curvature_meridional, curvature_azimuthal;
+  Vector moment_meridional, moment_azimuthal;
+};
+MembraneState membrane_state(const Membrane &membrane, const Sampling &at, const Vector &position);
+
+// Elastic energy, scaled with G R_t^2:
+//   W = integral over the reference area of w(lambda_s, lambda_phi)
+//       + (delta/2) (K_s^2 + 2 nu K_s K_phi + K_phi^2),  K_s = lambda_s kappa_s - kappa_s^0 (and s <-> phi),
+// whose bending part gives exactly the moments of eq. 6 and, with the tensions, the equilibrium of eq. 7 (see
+// paper-notes/equations.md).
+double elastic_energy(const Membrane &membrane, const Vector &position);
+// dW/dposition, 2N. With splines, the radial entries of the poles are what holds them on the axis, and no
+// load.
+Vector energy_gradient(const Membrane &membrane, const Vector &position);
+// d^2 W/dposition^2, 2N x 2N, symmetric.
+Matrix energy_hessian(const Membrane &membrane, const Vector &position);
+
+// Load on the liquids at the nodes of a spectral basis, eq. 7 in its weak form: 2N axial and radial
+// components per deformed area, scaled with G/R_t. Virtual work gives the integral of q against any
+// displacement; Gauss's rule on the nodes makes its mass matrix diagonal, q_j = -(dW/dposition_j)/(2 pi
+// weights_j r_j ds/dzeta_j). Throws std::invalid_argument for a spline basis.
+// The masses are nodal_area: the area that each node stands for.
+Vector nodal_area(const Membrane &membrane, const Vector &position);
+Vector membrane_load(const Membrane &membrane, const Vector &position);
+
+} // namespace capsule

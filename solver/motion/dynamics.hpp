@@ -1,0 +1,34 @@
+#pragma once
+// The equations of motion of a case, whichever numerics it asks for: position of the membrane's nodes ->
+// velocity.
+#include "case/case.hpp"
+#include "flow/flow_state.hpp"
+#include "membrane/membrane.hpp"
+#include "scene/resolution.hpp"
+#include <functional>
+
+namespace capsule {
+
+struct Dynamics {
+  Membrane membrane;
+  Vector start; // position of the nodes at t = 0
+  // Throw NumericsFailure when the shape is no capsule in the pore any more.
+  std::function<FlowState(const Vector &position)> flow;
+  // The same with the second route to the pressure drop, and without a trace in later flows. Reports of regular
+  // rows speed each other up; those of any others change no digit of them.
+  std::function<FlowState(const Vector &position, bool regular)> report;
+  // Only of the standard preset: d velocity/d position with frozen hydrodynamic mobility and the exact
+  // derivative of the membrane's load.
+  std::function<Matrix(const Vector &position)> jacobian;
+  // Drops what earlier shapes left behind to speed up the next one, so that a march depends on its start
+  // alone.
+  std::function<void()> forget;
+};
+
+// The membrane of the standard preset.
+Membrane standard_membrane(const Case &physics, const Resolution &resolution);
+
+// Builds what stays fixed: reference shape, matrices, the wall's factors and the empty pore's flow.
+Dynamics make_dynamics(const Case &physics);
+
+} // namespace capsule

@@ -1,0 +1,120 @@
+#include "motion/error_estimate.hpp"
+#include "observe/columns.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace capsule {
+namespace {
+
+// So many times the largest difference of the two marches bounds the error along the way; over a few rows, where all may
+// agree by accident, twice as many. Of Euler's scheme, of order 1, the difference is a ninth of the error.
+constexpr double safety = 3;
+double safety_of(const std::string &quantity, Scheme scheme) {
+  const bool of_the_way = quantity.find('@') != std::string::npos;
+  return safety * (of_the_way ? 1 : 2) * (scheme == Scheme::euler ? 9 : 1);
+}
+
+constexpr std::array estimated{
+    series_column("time"),
+    series_column("x_g"),
+    series_column("v_g"),
+    series_column("pressure_drop"),
+    series_column("max_stretch"),
+    series_column("front_stretch"),
+    series_column("min_film"),
+    series_column("length"),
+    series_column("deformation"),
+    series_column("max_axial_residual"),
+    series_column("max_radial_velocity"),
+};
+
+// Rows of both marches at the same x_g, or at the same time where time tells the end.
+struct RowPair {
+  const SeriesRow *fine, *coarse;
+};
+std::vector<RowPair> pair_rows(const std::vector<SeriesRow> &fine, const std::vector<SeriesRow> &coarse,
+                               double SeriesRow::*place) {
+  constexpr double same = 1e-9;
+  std::vector<RowPair> pairs;
+  auto other = coarse.begin();
+  for (const SeriesRow &row : fine) {
+    other = std::find_if(other, coarse.end(),
+                         [&](const SeriesRow &candidate) { return candidate.*place > row.*place - same; });
+    if (other == coarse.end())
+      break;
+    if ((*other).*place < row.*place + same)
+      pairs.push_back({&row, &*other});
+  }
+  return pairs;
+}
+
+// The deformation is of length and diameter, whose errors may cancel in it by accident: they are added.
+double deformation_difference(const SeriesRow &row, const SeriesRow &other) {
+  const auto diameter = [](const SeriesRow &of) {
+    return of.length * (1 - of.deformation) / (1 + of.deformation);
+  };
+  const double sum = row.length + diameter(row);
+  return 2 *
+         (diameter(row) * std::abs(row.length - other.length) +
+          row.length * std::abs(diameter(row) - diameter(other))) /
+         (sum * sum);
+}
+
+// The peak is where the slope vanishes: it moves by the slope's difference over the curvature.
+double shift_of_peak(const std::vector<RowPair> &pairs, const Peak &peak) {
+  double shift = 0;
+  for (std::size_t k = 2; k < pairs.size(); ++k) {
+    const double before = pairs[k - 1].fine->x_g - pairs[k - 2].fine->x_g;
+    const double after = pairs[k].fine->x_g - pairs[k - 1].fine->x_g;
+    const auto rise = [&](std::size_t i, const SeriesRow *RowPair::*march) {
+      return (pairs[i].*march)->pressure_drop - (pairs[i - 1].*march)->pressure_drop;
+    };
+    const double curvature =
+        2 * (rise(k, &RowPair::fine) / after - rise(k - 1, &RowPair::fine) / before) / (before + after);
+    if (std::abs(pairs[k - 1].fine->x_g - peak.x_g) <= row_spacing && curvature < 0)
+      shift = std::max(shift,
+                       std::abs((rise(k, &RowPair::fine) - rise(k, &RowPair::coarse)) / (after * curvature)));
+  }
+  return shift;
+}
+
+} // namespace
+
+std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine,
+                                              const std::vector<SeriesRow> &coarse, bool by_x_g,
+                                              Scheme scheme) {
+  constexpr double last_part = 2; // x_g, or a tenth of the time
+  constexpr double around_peak = 0.5;
+  double SeriesRow::*const place = by_x_g ? &SeriesRow::x_g : &SeriesRow::time;
+  const char *const suffix = by_x_g ? "@x_g" : "@time";
+  const double last = fine.back().*place - (by_x_g ? last_part : 0.1 * fine.back().time);
+  const std::optional<Peak> peak = entry_peak(fine);
+  const std::optional<Peak> coarse_peak = entry_peak(coarse);
+  std::map<std::string, double> error;
+  const auto add = [&](const std::string &name, double difference) {
+    error[name] = std::max(error[name], std::abs(difference));
+  };
+  const std::vector<RowPair> pairs = pair_rows(fine, coarse, place);
+  for (const auto &[row, other] : pairs) {
+    for (const SeriesColumn &quantity : estimated) {
+      const double difference = quantity.value == &SeriesRow::deformation
+                                    ? deformation_difference(*row, *other)
+                                    : row->*quantity.value - other->*quantity.value;
+      add(std::string(quantity.name) + suffix, difference);
+      if (row->*place >= last || quantity.value == &SeriesRow::time) // the time adds up along the way
+        add(quantity.name, difference);
+    }
+    if (by_x_g)
+      add("x_g@time", (row->time - other->time) * row->v_g);
+    if (peak && coarse_peak && std::abs(row->x_g - peak->x_g) < around_peak)
+      add("peak_pressure_drop", row->pressure_drop - other->pressure_drop);
+  }
+  if (peak && coarse_peak)
+    add("x_g_at_peak", std::max(std::abs(peak->x_g - coarse_peak->x_g), shift_of_peak(pairs, *peak)));
+  for (auto &[quantity, difference] : error)
+    difference *= safety_of(quantity, scheme);
+  return error;
+}
+
+} // namespace capsule

@@ -1,0 +1,19 @@
+#pragma once
+// Bounds of a march's errors from its differences to a slightly coarser one (motion; what was weighed:
+// paper-notes/methods.md).
+#include "case/case.hpp"
+#include "observe/gauge.hpp"
+#include <map>
+#include <string>
+#include <vector>
+
+namespace capsule {
+
+// Of what summary.json reports: largest differences, times a margin, over the rows at the same x_g, as "v_g@x_g", or at
+// the same time, as "v_g@time", and, as the plain name, over the last part of the way. A single row may agree by
+// accident. Neither series may be empty.
+std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine,
+                                              const std::vector<SeriesRow> &coarse, bool by_x_g,
+                                              Scheme scheme);
+
+} // namespace capsule

@@ -1,0 +1,275 @@
+#include "observe/gauge.hpp"
+#include "geometry/quadrature.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace capsule {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// The poles are approached to this distance in zeta: ratios such as r/R are 0/0 at a pole, and even fields
+// differ from their limit by its square.
+constexpr double pole_gap = 1e-5;
+
+Sampling integration_points(const MeridianBasis &basis) {
+  const Eigen::Index nodes = basis.size();
+  const bool spline = basis.spline_degree > 0;
+  const Panels panels =
+      make_panels(Vector::LinSpaced(spline ? nodes : nodes / 6 + 2, 0, pi), spline ? 4 : 12);
+  return sample(basis, panels.points, panels.weights);
+}
+
+Sampling pole_to_pole(const MeridianBasis &basis) {
+  const Eigen::Index n = 4 * basis.size() + 1;
+  return sample(basis, Vector::LinSpaced(n, pole_gap, pi - pole_gap), Vector::Zero(n));
+}
+
+// Largest value of the quartic through the largest sample and two neighbours on each side; next to an end, of
+// the parabola through three.
+double refined_maximum(const Vector &f) {
+  Eigen::Index k = 0;
+  const double best = f.maxCoeff(&k);
+  if (k == 0 || k == f.size() - 1)
+    return best;
+  const bool inside = k > 1 && k + 2 < f.size();
+  const double near_sum = f[k + 1] + f[k - 1], near_difference = f[k + 1] - f[k - 1];
+  const double far_sum = inside ? f[k + 2] + f[k - 2] : 4 * near_sum - 6 * best;
+  const double far_difference = inside ? f[k + 2] - f[k - 2] : 2 * near_difference;
+  // Derivatives in units of the spacing.
+  const double d1 = (8 * near_difference - far_difference) / 12,
+               d2 = (16 * near_sum - far_sum - 30 * best) / 12;
+  const double d3 = far_difference / 2 - near_difference, d4 = far_sum - 4 * near_sum + 6 * best;
+  double t = 0;
+  for (int step = 0; step < 4; ++step) {
+    const double bend = d2 + t * (d3 + t * d4 / 2);
+    if (!(bend < 0))
+      return best;
+    t = std::clamp(t - (d1 + t * (d2 + t * (d3 / 2 + t * d4 / 6))) / bend, -1.0, 1.0);
+  }
+  return std::max(best, best + t * (d1 + t * (d2 / 2 + t * (d3 / 6 + t * d4 / 24))));
+}
+
+// Stretches of negative kappa_s whose integral over the arc passes dent_angle.
+int count_dents(const MembraneState &state, double step) {
+  int dents = 0;
+  double turned_back = 0;
+  for (Eigen::Index k = 0; k < state.arc.size(); ++k) {
+    const double turn = -state.curvature_meridional[k] * state.arc[k] * step;
+    if (turn <= 0) {
+      turned_back = 0;
+      continue;
+    }
+    if (turned_back <= dent_angle && turned_back + turn > dent_angle)
+      ++dents;
+    turned_back += turn;
+  }
+  return dents;
+}
+
+// Amplitudes of the waves cos(k zeta), k = 0 ... n - 1, from the values at n nodes.
+Matrix waves_from_nodes(const Vector &nodes) {
+  const Eigen::Index n = nodes.size();
+  Matrix waves(n, n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    waves.col(k) = (static_cast<double>(k) * nodes.array()).cos();
+  return waves.inverse();
+}
+
+// Root of the share that the shortest third of the waves has in the sum of squares of k^2 times the
+// amplitudes of x.
+double roughness_of(const Vector &amplitudes) {
+  const Eigen::ArrayXd wave =
+      Eigen::ArrayXd::LinSpaced(amplitudes.size(), 0, static_cast<double>(amplitudes.size() - 1));
+  const Eigen::ArrayXd bending = (wave.square() * amplitudes.array()).square();
+  return std::sqrt(bending.tail(amplitudes.size() / 3).sum() / bending.sum());
+}
+
+} // namespace
+
+std::optional<Peak> entry_peak(const std::vector<SeriesRow> &series) {
+  if (series.empty())
+    return std::nullopt;
+  const auto x = [&](std::size_t i) { return series[i].x_g; };
+  const auto y = [&](std::size_t i) { return series[i].pressure_drop; };
+  const double fall = 1e-3 * std::ranges::max(series, {}, &SeriesRow::pressure_drop).pressure_drop;
+  std::size_t top = 0; // the highest row before the first fall
+  for (std::size_t i = 1; i < series.size() && y(i) >= y(top) - fall; ++i)
+    if (y(i) > y(top))
+      top = i;
+  if (top == 0 || top + 1 == series.size())
+    return Peak{y(top), x(top)};
+  const double slope_before = (y(top) - y(top - 1)) / (x(top) - x(top - 1));
+  const double slope_after = (y(top + 1) - y(top)) / (x(top + 1) - x(top));
+  const double curvature = (slope_after - slope_before) / (x(top + 1) - x(top - 1));
+  const double at = (x(top - 1) + x(top)) / 2 - slope_before / (2 * curvature);
+  return Peak{y(top) + (slope_before + curvature * (at - x(top - 1))) * (at - x(top)), at};
+}
+
+Gauge::Gauge(const Case &physics, const Membrane &membrane)
+    : membrane_(membrane), panels_(integration_points(membrane.basis)), fine_(pole_to_pole(membrane.basis)) {
+  if (physics.pore.shape != PoreShape::none)
+    pore_ = make_pore(physics);
+  initial_ = integrals(membrane_.reference);
+  waves_ = waves_from_nodes(membrane_.basis.nodes);
+
+  // S by Gauss's rule between neighbouring points.
+  const GaussRule rule = gauss_legendre(6);
+  const Vector x = membrane_.reference.head(membrane_.basis.size());
+  const Vector r = membrane_.reference.tail(membrane_.basis.size());
+  arc_from_pole_ = Vector::Zero(fine_.zeta.size());
+  const double step = fine_.zeta[1] - fine_.zeta[0];
+  Vector points(rule.size() * (fine_.zeta.size() - 1));
+  for (Eigen::Index k = 0; k + 1 < fine_.zeta.size(); ++k)
+    points.segment(k * rule.size(), rule.size()) = fine_.zeta[k] + step / 2 * (1 + rule.nodes.array());
+  const Vector speed = ((membrane_.basis.even(points, 1) * x).array().square() +
+                        (membrane_.basis.odd(points, 1) * r).array().square())
+                           .sqrt();
+  for (Eigen::Index k = 0; k + 1 < fine_.zeta.size(); ++k)
+    arc_from_pole_[k + 1] =
+        arc_from_pole_[k] + step / 2 * rule.weights.dot(speed.segment(k * rule.size(), rule.size()));
+}
+
+Gauge::Integrals Gauge::integrals(const Vector &position) const {
+  const Eigen::Index n = membrane_.basis.size();
+  const Eigen::ArrayXd x = panels_.even[0] * position.head(n);
+  const Eigen::ArrayXd r = panels_.odd[0] * position.tail(n);
+  const Eigen::ArrayXd x_zeta = panels_.even[1] * position.head(n);
+  const Eigen::ArrayXd r_zeta = panels_.odd[1] * position.tail(n);
+  const Eigen::ArrayXd slice = pi * panels_.weights.array() * r.square() * x_zeta;
+  return {slice.sum(), (slice * x).sum(),
+          2 * pi * (panels_.weights.array() * r * (x_zeta.square() + r_zeta.square()).sqrt()).sum()};
+}
+
+double Gauge::centre(const Vector &position) const {
+  const Eigen::Index n = membrane_.basis.size();
+  const Eigen::ArrayXd x = panels_.even[0] * position.head(n);
+  const Eigen::ArrayXd r = panels_.odd[0] * position.tail(n);
+  const Eigen::ArrayXd slice =
+      panels_.weights.array() * r.square() * (panels_.even[1] * position.head(n)).array();
+  return (slice * x).sum() / slice.sum();
+}
+
+double Gauge::film(const Vector &position) const {
+  if (!pore_)
+    return std::numeric_limits<double>::infinity();
+  const Eigen::Index n = membrane_.basis.size();
+  const Vector x = fine_.even[0] * position.head(n);
+  const Vector r = fine_.odd[0] * position.tail(n);
+  // From one point to the next the distance cannot fall by more than the way between them: points that are
+  // surely farther than the nearest one are passed over.
+  Vector distance(x.size());
+  double nearest = std::numeric_limits<double>::infinity();
+  Eigen::Index last = 0;
+  Eigen::Index best = 0;
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const double way = std::hypot(x[k] - x[last], r[k] - r[last]);
+    if (k > 0 && distance[last] - way > nearest) {
+      distance[k] = distance[last] - way;
+      continue;
+    }
+    distance[k] = wall_distance(*pore_, x[k], r[k]);
+    last = k;
+    if (distance[k] < nearest) {
+      nearest = distance[k];
+      best = k;
+    }
+  }
+  for (const Eigen::Index k : {best - 2, best - 1, best + 1, best + 2})
+    if (k >= 0 && k < x.size())
+      distance[k] = wall_distance(*pore_, x[k], r[k]);
+  return -refined_maximum(-distance);
+}
+
+bool Gauge::crosses_itself(const Vector &position) const {
+  const Eigen::Index n = membrane_.basis.size();
+  const Vector x = fine_.even[0] * position.head(n);
+  const Vector r = fine_.odd[0] * position.tail(n);
+  // Twice the area of the triangle of points a, b, c: its sign tells the side of the line ab on which c lies.
+  const auto side = [&](Eigen::Index a, Eigen::Index b, Eigen::Index c) {
+    return (x[b] - x[a]) * (r[c] - r[a]) - (r[b] - r[a]) * (x[c] - x[a]);
+  };
+  // Runs of segments whose boxes are apart have nothing in common.
+  constexpr Eigen::Index run = 8;
+  const Eigen::Index runs = (x.size() - 1 + run - 1) / run;
+  Matrix box(4, runs);
+  for (Eigen::Index a = 0; a < runs; ++a) {
+    const Eigen::Index points = std::min(run + 1, x.size() - a * run);
+    const auto run_x = x.segment(a * run, points), run_r = r.segment(a * run, points);
+    box.col(a) << run_x.minCoeff(), run_x.maxCoeff(), run_r.minCoeff(), run_r.maxCoeff();
+  }
+  const auto apart = [&](Eigen::Index a, Eigen::Index b) {
+    return box(0, a) > box(1, b) || box(0, b) > box(1, a) || box(2, a) > box(3, b) || box(2, b) > box(3, a);
+  };
+  const auto cross = [&](Eigen::Index i, Eigen::Index j) {
+    return side(i, i + 1, j) * side(i, i + 1, j + 1) < 0 && side(j, j + 1, i) * side(j, j + 1, i + 1) < 0;
+  };
+  const auto end = [&](Eigen::Index a) { return std::min((a + 1) * run, x.size() - 1); };
+  for (Eigen::Index a = 0; a < runs; ++a)
+    for (Eigen::Index b = a; b < runs; ++b) {
+      if (apart(a, b))
+        continue;
+      for (Eigen::Index i = a * run; i < end(a); ++i)
+        for (Eigen::Index j = std::max(b * run, i + 2); j < end(b); ++j)
+          if (cross(i, j))
+            return true;
+    }
+  return false;
+}
+
+SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity) const {
+  const Eigen::Index n = membrane_.basis.size();
+  SeriesRow row;
+  row.time = time;
+  const Integrals now = integrals(position);
+  row.x_g = now.first_moment / now.volume;
+  row.volume_change = (now.volume - initial_.volume) / initial_.volume;
+  row.area_change = (now.area - initial_.area) / initial_.area;
+
+  // v_g = (1/V) int (x - x_g) v.n dA, with n dA = 2 pi r (-r', x') dzeta
+  const Eigen::ArrayXd x = panels_.even[0] * position.head(n);
+  const Eigen::ArrayXd r = panels_.odd[0] * position.tail(n);
+  const Eigen::ArrayXd flux =
+      (panels_.odd[0] * velocity.tail(n)).array() * (panels_.even[1] * position.head(n)).array() -
+      (panels_.even[0] * velocity.head(n)).array() * (panels_.odd[1] * position.tail(n)).array();
+  row.v_g = 2 * pi * (panels_.weights.array() * (x - row.x_g) * r * flux).sum() / now.volume;
+  row.max_axial_residual = (velocity.head(n).array() - row.v_g).abs().maxCoeff();
+  row.max_radial_velocity = velocity.tail(n).cwiseAbs().maxCoeff();
+
+  const MembraneState state = membrane_state(membrane_, fine_, position);
+  row.max_stretch = refined_maximum(state.stretch_meridional);
+  row.front_stretch = state.stretch_meridional[state.stretch_meridional.size() - 1];
+  row.min_film = film(position);
+  row.length = refined_maximum(state.x) + refined_maximum(-state.x);
+  const double diameter = 2 * refined_maximum(state.r);
+  row.deformation = (row.length - diameter) / (row.length + diameter);
+  row.roughness = roughness_of(waves_ * position.head(n));
+  row.dents = count_dents(state, fine_.zeta[1] - fine_.zeta[0]);
+  return row;
+}
+
+Profile Gauge::profile(double time, const Vector &position, const Vector &velocity) const {
+  const Eigen::Index n = membrane_.basis.size();
+  const MembraneState state = membrane_state(membrane_, fine_, position);
+  Profile profile;
+  profile.time = time;
+  profile.x_g = centre(position);
+  profile.S = arc_from_pole_;
+  profile.x = state.x;
+  profile.r = state.r;
+  profile.stretch_meridional = state.stretch_meridional;
+  profile.stretch_azimuthal = state.stretch_azimuthal;
+  profile.tension_meridional = state.tension_meridional;
+  profile.tension_azimuthal = state.tension_azimuthal;
+  profile.moment_meridional = state.moment_meridional;
+  profile.moment_azimuthal = state.moment_azimuthal;
+  profile.curvature_meridional = state.curvature_meridional;
+  profile.curvature_azimuthal = state.curvature_azimuthal;
+  profile.velocity_x = fine_.even[0] * velocity.head(n);
+  profile.velocity_r = fine_.odd[0] * velocity.tail(n);
+  return profile;
+}
+
+} // namespace capsule

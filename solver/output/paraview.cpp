@@ -1,0 +1,75 @@
+#include "output/paraview.hpp"
+#include "base/text.hpp"
+#include "observe/columns.hpp"
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <string_view>
+
+namespace capsule {
+namespace {
+
+// Which points of a profile a picture needs: at most 128 steps along the meridian, from pole to pole.
+std::vector<Eigen::Index> pictured_points(const Profile &profile) {
+  const Eigen::Index last = profile.x.size() - 1, stride = 1 + last / 128;
+  std::vector<Eigen::Index> chosen;
+  for (Eigen::Index i = 0; i < last; i += stride)
+    chosen.push_back(i);
+  chosen.push_back(last);
+  return chosen;
+}
+
+} // namespace
+
+std::string surface_name(std::size_t index) {
+  return fmt::format("membrane_{:04}.vtp", index);
+}
+
+// A strip of triangles between each two points.
+std::string surface_vtp(const Profile &profile) {
+  constexpr int turns = 32;
+  const std::vector<Eigen::Index> chosen = pictured_points(profile);
+  const auto points = std::ssize(chosen);
+  std::string positions, connectivity, offsets;
+  for (const Eigen::Index i : chosen)
+    for (int k = 0; k < turns; ++k) {
+      const double azimuth = 2 * std::numbers::pi * k / turns;
+      positions += fmt::format("{:.6g} {:.6g} {:.6g}\n", profile.x[i], profile.r[i] * std::cos(azimuth),
+                               profile.r[i] * std::sin(azimuth));
+    }
+  const auto point = [](Eigen::Index i, int k) { return i * turns + k % turns; };
+  for (Eigen::Index i = 0; i + 1 < points; ++i) {
+    for (int k = 0; k <= turns; ++k)
+      connectivity += fmt::format("{} {}\n", point(i, k), point(i + 1, k));
+    offsets += fmt::format("{}\n", (i + 1) * 2 * (turns + 1));
+  }
+  std::string fields;
+  for (const ProfileColumn &column : profile_columns) {
+    const std::string_view name = column.name;
+    if (!name.starts_with("stretch") && !name.starts_with("tension"))
+      continue;
+    fields += fmt::format("<DataArray type=\"Float32\" Name=\"{}\" format=\"ascii\">\n", name);
+    for (const Eigen::Index i : chosen)
+      for (int k = 0; k < turns; ++k)
+        fields += fmt::format("{:.5g}\n", (profile.*column.values)[i]);
+    fields += "</DataArray>\n";
+  }
+  return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
+                     "<Piece NumberOfPoints=\"{}\" NumberOfStrips=\"{}\">\n<PointData>\n{}</PointData>\n"
+                     "<Points>\n<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">\n{}"
+                     "</DataArray>\n</Points>\n<Strips>\n"
+                     "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n{}</DataArray>\n"
+                     "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n{}</DataArray>\n"
+                     "</Strips>\n</Piece>\n</PolyData>\n</VTKFile>\n",
+                     points * turns, points - 1, fields, positions, connectivity, offsets);
+}
+
+std::string surfaces_pvd(const std::vector<Profile> &profiles) {
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+  for (std::size_t i = 0; i < profiles.size(); ++i)
+    text += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", number_text(profiles[i].time),
+                        surface_name(i));
+  return text + "</Collection>\n</VTKFile>\n";
+}
+
+} // namespace capsule

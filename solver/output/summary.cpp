@@ -1,0 +1,146 @@
+#include "output/summary.hpp"
+#include "base/atomic_file.hpp"
+#include "base/json_file.hpp"
+#include "case/key.hpp"
+#include "observe/columns.hpp"
+#include "output/tables.hpp"
+#include "scene/resolution.hpp"
+#include <cerrno>
+#include <cmath>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace capsule {
+namespace {
+
+const char *status_text(Status status) {
+  switch (status) {
+  case Status::reached:
+    return "reached";
+  case Status::steady:
+    return "steady";
+  case Status::unbounded:
+    return "unbounded";
+  case Status::failed:
+    return "failed";
+  case Status::interrupted:
+    break;
+  }
+  return "interrupted";
+}
+
+Json finite_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json to_json(const Value &value) {
+  return std::visit(
+      [](const auto &v) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(v)>, Unsupported>)
+          return {};
+        else
+          return v;
+      },
+      value);
+}
+
+// What the end of a run says of the pore means nothing in an unbounded liquid.
+bool applies(std::string_view quantity, const Case &physics) {
+  const bool of_the_pore = quantity.find("pressure_drop") != std::string_view::npos ||
+                           quantity == "x_g_at_peak" || quantity == "min_film";
+  return !of_the_pore || physics.flow.type == FlowType::pore;
+}
+
+// The values of a summary in SI units, by their name and unit.
+Json physical_json(const Case &physics, const Json &summary) {
+  const Scales scales = physical_scales(physics);
+  Json json = Json::object();
+  for (const PhysicalColumn &column : physical_columns)
+    if (const Json &value = summary.at(column.name); value.is_number())
+      json[fmt::format("{} [{}]", column.name, unit_text(column.of))] =
+          value.get<double>() * scales.*column.scale;
+  json[fmt::format("tension scale [{}]", unit_text(dimension::tension))] = scales.tension;
+  return json;
+}
+
+} // namespace
+
+std::string summary_text(const Case &physics, const Outcome &outcome, const Effort &effort) {
+  Json json;
+  json["status"] = status_text(outcome.status);
+  json["failure"] = outcome.failure.empty() ? Json() : Json(outcome.failure);
+  json["message"] = outcome.message.empty() ? Json() : Json(outcome.message);
+  const std::vector<SeriesRow> &series = outcome.last.series;
+  const auto put = [&](const char *name, std::optional<double> value) {
+    json[name] = value && applies(name, physics) ? finite_or_null(*value) : Json();
+  };
+  for (const SeriesColumn &column : series_columns)
+    put(column.name, series.empty() ? std::nullopt : std::optional(series.back().*column.value));
+  const bool moved = outcome.status != Status::steady && outcome.along.empty();
+  const auto peak = moved ? entry_peak(series) : std::nullopt;
+  put("peak_pressure_drop", peak ? std::optional(peak->pressure_drop) : std::nullopt);
+  put("x_g_at_peak", peak ? std::optional(peak->x_g) : std::nullopt);
+  if (in_physical_units(physics, outcome))
+    json["physical"] = physical_json(physics, json);
+  for (const auto &[quantity, value] : outcome.further)
+    json[quantity] = finite_or_null(value);
+  if (!outcome.along.empty()) {
+    json["along"] = outcome.along;
+    json["folds"] = Json::array();
+    for (const BranchRow &fold : outcome.folds) {
+      Json entry{{outcome.along, fold.parameter}, {"growth_rate", fold.growth_rate}};
+      for (const SeriesColumn &column : branch_columns)
+        if (applies(column.name, physics))
+          entry[column.name] = finite_or_null(fold.row.*column.value);
+      json["folds"].push_back(std::move(entry));
+    }
+  }
+  json["error_estimate"] = Json::object();
+  for (const auto &[quantity, error] : outcome.error_estimate)
+    json["error_estimate"][quantity] = finite_or_null(error);
+  json["steps"] = outcome.last.steps;
+  json["cpu_seconds"] = effort.cpu_seconds;
+  json["wall_seconds"] = effort.wall_seconds;
+  // Complete: also what followed from the accuracy asked for.
+  Case resolved = physics;
+  const Resolution chosen = choose_resolution(physics);
+  resolved.mesh.membrane = outcome.membrane_nodes > 0 ? outcome.membrane_nodes : chosen.membrane_nodes;
+  if (physics.time.scheme == Scheme::bdf)
+    resolved.time.tolerance = chosen.time_tolerance;
+  json["parameters"] = Json::object();
+  for (const Key &key : keys()) {
+    const auto value = get_value(key, resolved);
+    json["parameters"][key.name] = value ? to_json(*value) : Json();
+  }
+  return json.dump(2) + "\n";
+}
+
+Summary read_summary(const std::filesystem::path &directory) {
+  const std::filesystem::path file = directory / "summary.json";
+  const auto json = read_json(file);
+  if (!json)
+    fail_at("cannot read", file, ENOENT);
+  try {
+    Summary summary;
+    const auto text = [&](const char *key) {
+      const Json &value = json->at(key);
+      return value.is_string() ? value.get<std::string>() : std::string();
+    };
+    summary.status = text("status");
+    summary.failure = text("failure");
+    summary.message = text("message");
+    if (json->contains("along"))
+      summary.along = text("along");
+    for (const auto &[name, value] : json->items())
+      if (value.is_number())
+        summary.quantities[name] = value;
+    for (const auto &[name, value] : json->at("error_estimate").items())
+      if (value.is_number())
+        summary.error_estimate[name] = value;
+    return summary;
+  } catch (const Json::exception &error) {
+    fail_to_use(file, error);
+  }
+}
+
+} // namespace capsule

@@ -1,0 +1,26 @@
+#pragma once
+// summary.json: the end of a run in one object, with its error estimates, its cost and its complete parameters.
+#include "case/case.hpp"
+#include "motion/motion.hpp"
+#include "output/checkpoint.hpp"
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace capsule {
+
+std::string summary_text(const Case &physics, const Outcome &outcome, const Effort &effort);
+
+// Read back. Quantities that do not apply are absent.
+struct Summary {
+  std::string status;
+  std::string failure;
+  std::string message;
+  std::map<std::string, double> quantities;
+  std::map<std::string, double> error_estimate;
+  std::string along = {}; // of a branch: the key that varies
+};
+// Throws FileError.
+Summary read_summary(const std::filesystem::path &directory);
+
+} // namespace capsule

@@ -1,0 +1,25 @@
+#pragma once
+// The tables that a run leaves, as comma-separated values under a head of names (columns.hpp): one row per recorded
+// instant, per point of a branch, per point of each profile. Numbers have the fewest digits that read back as the
+// same double.
+#include "case/case.hpp"
+#include "motion/motion.hpp"
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace capsule {
+
+std::string series_csv(const std::vector<SeriesRow> &series);
+// Whether there are values in SI units: of a case in physical units, but not along a branch, where the scales change.
+bool in_physical_units(const Case &physics, const Outcome &outcome);
+// In SI units, the unit in each column's head.
+std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow> &series);
+// Its first column is the key that varies, its last the growth rate.
+std::string branch_csv(const Outcome &outcome);
+std::string profiles_csv(const std::vector<Profile> &profiles);
+
+// The last profile of a run's profiles.csv. Throws FileError.
+Profile read_last_profile(const std::filesystem::path &directory);
+
+} // namespace capsule

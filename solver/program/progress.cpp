@@ -1,0 +1,66 @@
+#include "program/progress.hpp"
+#include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace capsule {
+std::string duration_text(double seconds) {
+  if (seconds < 100)
+    return fmt::format("{:.0f} s", seconds);
+  if (seconds < 6000)
+    return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+double fraction_done(const Case &physics, double time, double x_g) {
+  double fraction = 0;
+  if (physics.until.time)
+    fraction = time / *physics.until.time;
+  if (physics.until.x_g)
+    fraction =
+        std::max(fraction, (x_g - physics.capsule.start_x) / (*physics.until.x_g - physics.capsule.start_x));
+  return std::clamp(fraction, 0.0, 1.0);
+}
+
+void ProgressLine::update(const std::string &run, const Case &physics, double time, double x_g, long steps) {
+  if (!shown)
+    return;
+  const Clock::time_point now = Clock::now();
+  const double fraction = fraction_done(physics, time, x_g);
+  UnderWay &this_run = runs.try_emplace(run, UnderWay{now, fraction, 0, ""}).first->second;
+  const double seconds = std::chrono::duration<double>(now - this_run.began).count();
+  const double gained = fraction - this_run.fraction_at_first;
+  if (seconds < 1 || gained <= 0)
+    return;
+  this_run.seconds_left = seconds * (1 - fraction) / gained;
+  this_run.text = fmt::format("{}{}t {:7.3f}  x_g {:7.3f}  step {:6}  {:3.0f} %  {:>6} left", run,
+                              run.empty() ? "" : "  ", time, x_g, steps, 100 * fraction,
+                              duration_text(this_run.seconds_left));
+  if (now - last_shown < std::chrono::milliseconds(200))
+    return;
+  last_shown = now;
+  const auto longest =
+      std::ranges::max_element(runs, {}, [](const auto &entry) { return entry.second.seconds_left; });
+  fmt::print(stderr, "\r{}\033[K", longest->second.text);
+  std::fflush(stderr);
+  on_screen = true;
+}
+
+void ProgressLine::finish(const std::string &run) {
+  runs.erase(run);
+  clear();
+}
+
+void ProgressLine::print(const std::string &line) {
+  clear();
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
+void ProgressLine::clear() {
+  if (on_screen)
+    fmt::print(stderr, "\r\033[K");
+  on_screen = false;
+}
+
+} // namespace capsule

@@ -1,0 +1,192 @@
+#include "steady/branch.hpp"
+#include "base/failure.hpp"
+#include "base/text.hpp"
+#include "case/key.hpp"
+#include "steady/steady_state.hpp"
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+#include <optional>
+
+namespace capsule {
+namespace {
+
+constexpr Branch::Steps steps{.first = 0.02, .largest = 0.04, .tolerance = 1e-7};
+constexpr double accuracy_of_folds = 1e-6;
+constexpr int most_nodes_of_a_branch = 300;
+constexpr int most_points = 500;
+
+constexpr std::array numbers_of_a_steady_state{"flow.capillary_number", "capsule.radius",
+                                               "capsule.aspect_ratio", "membrane.bending_ratio",
+                                               "membrane.dilatation"};
+
+// The points of one branch as they are found.
+class Record {
+public:
+  Record(const KeyPath &path, double viscosity_ratio, const Control &control)
+      : path_(path), viscosity_ratio_(viscosity_ratio), control_(control) {}
+
+  BranchRow look_at(const SteadyState &state, double part, bool profile) {
+    if (control_.interrupted && control_.interrupted())
+      throw Interrupted{};
+    state.system->take(path_.at(part));
+    SteadyRecord record = record_steady(state, viscosity_ratio_);
+    record.row.time = path_.value(part); // a branch has no time: what varies takes its place
+    record.profile.time = record.row.time;
+    const BranchRow point{path_.value(part), record.row, record.rates.at("growth_rate")};
+    latest_ = std::move(record);
+    if (profile)
+      keep_latest();
+    ++outcome.last.steps;
+    return point;
+  }
+
+  // Series and profile of the point that was looked at last, unless they are there.
+  void keep_latest() {
+    if (latest_) {
+      outcome.last.series.push_back(latest_->row);
+      outcome.last.profiles.push_back(std::move(latest_->profile));
+    }
+    latest_.reset();
+  }
+
+  Outcome outcome;
+
+private:
+  KeyPath path_;
+  double viscosity_ratio_;
+  const Control &control_;
+  std::optional<SteadyRecord> latest_; // that is not kept yet
+};
+
+// One branch from the case's own value of the key on.
+class Walk {
+public:
+  Walk(const Case &physics, const KeyPath &path, const Control &control)
+      : path_(path), record_(path, physics.flow.viscosity_ratio, control),
+        may_refine_(physics.mesh.membrane == 0) {}
+
+  void begin(const RefinedState &start) {
+    outcome().error_estimate = start.error_estimate;
+    state_ = start.state;
+    outcome().branch.push_back(record_.look_at(state_, 0, true));
+    branch_ = std::make_unique<Branch>(*state_.system, cases(), BranchPoint{state_.unknowns, 0},
+                                       Branch::upwards(*state_.system), steps);
+  }
+
+  // One point further; true at the end.
+  bool go_on() {
+    branch_->advance();
+    if (branch_->turned() && !branch_->tangent_has_turned() &&
+        refine_mesh(branch_->point_before(), branch_->tangent_before()))
+      return false;
+    if (branch_->turned())
+      outcome().folds.push_back(look_at(branch_->fold(), true));
+    part_ = branch_->point().parameter;
+    if (part_ >= 1 || part_ <= 0) {
+      outcome().branch.push_back(look_at(branch_->at_parameter(part_ >= 1 ? 1 : 0), true));
+      outcome().status = Status::reached;
+      if (part_ <= 0)
+        outcome().message = fmt::format("the branch turns back and does not reach {}", path_.text(1));
+      return true;
+    }
+    const bool runs_away = state_.system->largest_stretch(branch_->point().unknowns) > runaway_stretch;
+    outcome().branch.push_back(look_at(branch_->point(), runs_away));
+    if (runs_away) {
+      outcome().status = Status::unbounded;
+      outcome().message = fmt::format("stretched beyond {} at {}; the branch is not followed further",
+                                      runaway_stretch, path_.text(part_));
+      return true;
+    }
+    if (std::ssize(outcome().branch) > most_points)
+      throw NumericsFailure("step",
+                            fmt::format("{} points have led to {} only", most_points, path_.text(part_)),
+                            "a nearer --to");
+    if (branch_->wants_a_finer_mesh())
+      refine_mesh(branch_->point(), branch_->tangent());
+    return false;
+  }
+
+  void end_here() { record_.keep_latest(); }
+  Outcome &outcome() { return record_.outcome; }
+  int nodes() const { return static_cast<int>(state_.system->nodes()); }
+  std::string place() const { return path_.text(part_); }
+
+private:
+  Path cases() const {
+    return [path = path_](double part) { return path.at(part); };
+  }
+  BranchRow look_at(const BranchPoint &point, bool profile) {
+    state_.unknowns = point.unknowns;
+    return record_.look_at(state_, point.parameter, profile);
+  }
+  // Goes on from a point on a finer mesh; false if there is none that leads on.
+  bool refine_mesh(const BranchPoint &point, const Vector &tangent) {
+    const int more = finer_mesh(nodes());
+    if (!may_refine_ || more > most_nodes_of_a_branch)
+      return false;
+    const SteadyState guess = moved_to_mesh(path_.at(point.parameter), more, {state_.system, point.unknowns});
+    try {
+      branch_ = std::make_unique<Branch>(*guess.system, cases(), BranchPoint{guess.unknowns, point.parameter},
+                                         moved_to(*guess.system, *state_.system, tangent), steps);
+      state_ = {guess.system, branch_->point().unknowns};
+    } catch (const NumericsFailure &) {
+      may_refine_ = false;
+    }
+    return may_refine_;
+  }
+
+  KeyPath path_;
+  Record record_;
+  bool may_refine_;
+  SteadyState state_;
+  std::unique_ptr<Branch> branch_;
+  double part_ = 0;
+};
+
+} // namespace
+
+void require_branch(const Case &physics, const std::string &key, double to) {
+  if (std::ranges::find(numbers_of_a_steady_state, key) == numbers_of_a_steady_state.end()) {
+    const std::vector<std::string> names(numbers_of_a_steady_state.begin(), numbers_of_a_steady_state.end());
+    const std::string near = nearest_word(key, names);
+    throw InputError(fmt::format("error: no branch along '{}'\n{}it goes along one of {}\n", key,
+                                 near.empty() ? "" : fmt::format("did you mean '{}'? ", near),
+                                 fmt::join(names, ", ")));
+  }
+  Case there = physics;
+  if (const auto complaint = set_value(*find_key(key), to, there))
+    throw InputError(fmt::format("error: --to {}: {}\n{}\n", number_text(to), complaint->message,
+                                 "allowed: " + allowed_text(*find_key(key))));
+  if (key == "capsule.radius" && physics.flow.type == FlowType::extension)
+    throw InputError("error: no branch along 'capsule.radius': it is the unit of length in an extension\n");
+  if (!KeyPath(key, physics, to).needed())
+    throw InputError(fmt::format("error: {} = {} is where the branch begins\n", key, number_text(to)));
+}
+
+Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control) {
+  require_branch(asked, key, to);
+  Case physics = asked;
+  physics.accuracy = std::min(asked.accuracy, accuracy_of_folds);
+  Walk walk(physics, KeyPath(key, physics, to), control);
+  Outcome &outcome = walk.outcome();
+  outcome.along = key;
+  try {
+    walk.begin(refine(physics, find_steady(physics, {}, control), control));
+    while (!walk.go_on()) {
+    }
+    outcome.membrane_nodes = walk.nodes();
+  } catch (const NumericsFailure &failure) {
+    walk.end_here();
+    outcome.status = Status::failed;
+    outcome.failure = failure.kind;
+    outcome.message = fmt::format("{} (after {}); {}", failure.what(), walk.place(), failure.advice);
+  } catch (const Interrupted &) {
+    outcome.status = Status::interrupted;
+  }
+  return outcome;
+}
+
+} // namespace capsule

@@ -1,0 +1,279 @@
+#include "steady/continuation.hpp"
+#include "base/failure.hpp"
+#include "geometry/node_density.hpp"
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+
+namespace capsule {
+namespace {
+
+constexpr int most_iterations = 25;
+constexpr double position_tolerance = 1e-9;
+constexpr double smallest_step = 1e-6;
+constexpr double largest_slack = 5e-7;
+constexpr double poorly_resolved = 1e-6; // by the measure of node_density.hpp
+
+[[noreturn]] void no_convergence() {
+  throw NumericsFailure("unresolved", "Newton's method does not converge",
+                        "try a finer mesh.membrane or a larger membrane.bending_ratio");
+}
+
+// Whether corrections of these lengths, one after the other, lead anywhere.
+bool contracts(int iteration, double before, double now) {
+  return std::isfinite(now) && (iteration < 2 || now < 0.7 * before);
+}
+
+// The first guess bends with the branch: what it misses, and with it the contraction of Newton's method, is of
+// third order in the step.
+double next_step(double contraction) {
+  constexpr double intended = 0.25;
+  return contraction == 0 ? 1.4 : std::clamp(std::cbrt(intended / contraction), 0.5, 2.0);
+}
+
+} // namespace
+
+Vector solve_steady(SteadySystem &system, Vector guess, double tolerance) {
+  constexpr double farthest = 3; // that a guess can be from a solution
+  const Eigen::Index n2 = 2 * system.nodes();
+  double before = 0;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    system.fit_tube(guess);
+    const SteadySystem::Linearisation linear = system.linearise(guess);
+    const Vector change = linear.jacobian.partialPivLu().solve(-linear.residual);
+    const double step = system.admissible_step(guess, change);
+    const double length = change.head(n2).cwiseAbs().maxCoeff();
+    if (!(length < farthest) || (iteration > 10 && !contracts(iteration, before, length)))
+      no_convergence();
+    guess += step * change;
+    if (step == 1 && length < tolerance)
+      return guess;
+    before = length;
+  }
+  no_convergence();
+}
+
+Branch::Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction,
+               const Steps &steps)
+    : system_(&system), path_(std::move(path)), point_(std::move(start)), steps_(steps), step_(steps.first),
+      trend_(direction[direction.size() - 1] < 0 ? -1 : 1) {
+  const Corrected first = correct(point_, direction / std::sqrt(weighted(direction, direction)), 0,
+                                  position_tolerance, Vector::Zero(direction.size()));
+  point_ = first.point;
+  tangent_ = first.tangent;
+}
+
+Vector Branch::upwards(const SteadySystem &system) {
+  const Eigen::Index m = 2 * system.nodes() + 2;
+  return Vector::Unit(m + 1, m);
+}
+
+// Weighted mean over the nodes of the product of displacements, and the parameters' product.
+double Branch::weighted(const Vector &a, const Vector &b) const {
+  const Eigen::Index n = system_->nodes();
+  return weight_ / static_cast<double>(n) * a.head(2 * n).dot(b.head(2 * n)) +
+         a[a.size() - 1] * b[b.size() - 1];
+}
+
+// Where the parameter alone would count, displacements get the weight to count as much; it goes back where they
+// alone count.
+void Branch::balance() {
+  constexpr double largest_weight = 1e5;
+  const double share = std::pow(tangent_[tangent_.size() - 1], 2); // the tangent has length one
+  if (share > 0.8)
+    weight_ = std::min(weight_ * share / std::max(1 - share, 1e-12), largest_weight);
+  else if (share < 0.1)
+    weight_ = std::max(weight_ / 2, 1.0);
+  const double stretched = std::sqrt(weighted(tangent_, tangent_));
+  tangent_ /= stretched;
+  step_ = std::min(step_ * stretched, steps_.largest); // the same way as before, if allowed
+}
+
+// d residual/d parameter by central differences: the residual is smooth in it, the error about 1e-9.
+Vector Branch::parameter_slope(const BranchPoint &at) const {
+  constexpr double h = 1e-5;
+  system_->take(path_(at.parameter + h));
+  const Vector above = system_->residual(at.unknowns);
+  system_->take(path_(at.parameter - h));
+  const Vector below = system_->residual(at.unknowns);
+  system_->take(path_(at.parameter));
+  return (above - below) / (2 * h);
+}
+
+// The point at a length `step` along the tangent, from a guess that bends away from it.
+Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
+                                  double tolerance, const Vector &curvature) const {
+  constexpr double little = 1e-3; // a correction after which the parameter's column may stay
+  const Eigen::Index m = from.unknowns.size();
+  const Eigen::Index n = system_->nodes();
+  Vector row = Vector::Zero(m + 1);
+  row.head(2 * n) = weight_ / static_cast<double>(n) * tangent.head(2 * n);
+  row[m] = tangent[m];
+  const Vector way = step * tangent + step * step / 2 * curvature;
+  BranchPoint now{from.unknowns + way.head(m), from.parameter + way[m]};
+  Vector slope;
+  double before = 1, contraction = 0;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    system_->take(path_(now.parameter));
+    system_->fit_tube(now.unknowns);
+    if (before > little)
+      slope = parameter_slope(now);
+    const SteadySystem::Linearisation linear = system_->linearise(now.unknowns);
+    Matrix bordered(m + 1, m + 1);
+    bordered << linear.jacobian, slope, row.transpose();
+    Vector right = Vector::Zero(m + 1);
+    right.head(m) = -linear.residual;
+    right[m] = step - row.head(2 * n).dot((now.unknowns - from.unknowns).head(2 * n)) -
+               row[m] * (now.parameter - from.parameter);
+    const Eigen::PartialPivLU<Matrix> factors(bordered);
+    const Vector change = factors.solve(right);
+    const double length = std::sqrt(weighted(change, change));
+    if (!contracts(iteration, before, length) || system_->admissible_step(now.unknowns, change.head(m)) < 1)
+      no_convergence();
+    // The second correction may be large where the third is none. From a matrix that is not quite the derivative
+    // corrections shrink by some part, however short the step.
+    const double now_by_before = length / before;
+    if (iteration == 1)
+      contraction = now_by_before;
+    else if (iteration == 2)
+      contraction =
+          std::max(std::min(contraction - now_by_before, std::sqrt(contraction * now_by_before)), 1e-3);
+    before = length;
+    now.unknowns += change.head(m);
+    now.parameter += change[m];
+    // A large slack tells of a coarse mesh only where nothing else is left of a correction.
+    const bool slack_is_small = std::abs(now.unknowns[m - 1]) <= largest_slack;
+    const double enough = slack_is_small ? tolerance : std::max(tolerance / 100, position_tolerance);
+    if (length < enough * std::sqrt(weight_)) {
+      right.setZero();
+      right[m] = 1;
+      Vector direction = factors.solve(right);
+      direction /= std::sqrt(weighted(direction, direction));
+      return {now, direction, contraction};
+    }
+  }
+  no_convergence();
+}
+
+// Derivative of the tangent along the branch, from the last two points. It bends the first guess: a thin shell
+// resists any stretch, and a straight displacement that turns parts of it stretches these in second order.
+Vector Branch::curvature() const {
+  if (points_ == 1)
+    return Vector::Zero(tangent_.size());
+  Vector way(tangent_.size());
+  way << point_.unknowns - before_.unknowns, point_.parameter - before_.parameter;
+  const Vector earlier = tangent_before_ / std::sqrt(weighted(tangent_before_, tangent_before_));
+  return (tangent_ - earlier) / weighted(way, tangent_);
+}
+
+void Branch::advance() {
+  constexpr double straight = 0.85; // cosine between neighbouring tangents
+  balance();
+  const Vector bend = curvature();
+  for (;;) {
+    try {
+      const Corrected next = correct(point_, tangent_, step_, steps_.tolerance, bend);
+      if (weighted(next.tangent, tangent_) > straight) {
+        oldest_ = before_;
+        before_ = point_;
+        tangent_before_ = tangent_;
+        ++points_;
+        point_ = next.point;
+        tangent_ = next.tangent;
+        trend_before_ = trend_;
+        trend_ = point_.parameter < before_.parameter ? -1 : 1;
+        step_ = std::min(next_step(next.contraction) * step_, steps_.largest);
+        return;
+      }
+    } catch (const NumericsFailure &) {
+      if (step_ < 2 * smallest_step)
+        throw;
+    }
+    step_ /= 2;
+    if (step_ < smallest_step)
+      no_convergence();
+  }
+}
+
+BranchPoint Branch::at_parameter(double parameter) const {
+  const double part = (parameter - before_.parameter) / (point_.parameter - before_.parameter);
+  system_->take(path_(parameter));
+  const Vector guess = before_.unknowns + part * (point_.unknowns - before_.unknowns);
+  return {solve_steady(*system_, guess, position_tolerance), parameter};
+}
+
+double Branch::plain_step() const {
+  const auto displacement = tangent_.head(2 * system_->nodes());
+  return step_ * std::hypot(displacement.norm() / std::sqrt(static_cast<double>(system_->nodes())),
+                            tangent_[tangent_.size() - 1]);
+}
+
+bool Branch::wants_a_finer_mesh() const {
+  const Vector &u = point_.unknowns;
+  return std::abs(u[u.size() - 1]) > largest_slack ||
+         unresolved_part(system_->membrane().basis, u.head(2 * system_->nodes())) > poorly_resolved;
+}
+
+bool Branch::turned() const {
+  return points_ > 1 && trend_ != trend_before_;
+}
+
+bool Branch::tangent_has_turned() const {
+  return tangent_[tangent_.size() - 1] * trend_ > 0;
+}
+
+double Branch::along_tangent_before(const BranchPoint &at) const {
+  Vector way(tangent_before_.size());
+  way << at.unknowns - before_.unknowns, at.parameter - before_.parameter;
+  return weighted(way, tangent_before_);
+}
+
+// So that a way from the point before, begun along its tangent, ends at a given point.
+Vector Branch::bend_towards(const BranchPoint &end) const {
+  Vector way(tangent_before_.size());
+  way << end.unknowns - before_.unknowns, end.parameter - before_.parameter;
+  const double length = along_tangent_before(end);
+  return 2 / (length * length) * (way - length * tangent_before_);
+}
+
+// Where the parameter has no slope along the arc: by the tangents, or, if they do not see it because the mesh
+// resolves some end of the shape poorly, by differences of the parameter itself.
+BranchPoint Branch::fold() const {
+  const double last = along_tangent_before(point_);
+  const double first = points_ > 2 ? along_tangent_before(oldest_) : -last;
+  const double h = 0.03 * std::min(-first, last);
+  const Vector bend_before = points_ > 2 ? bend_towards(oldest_) : Vector::Zero(tangent_before_.size());
+  const Vector bend_after = bend_towards(point_);
+  const auto at = [&](double step) {
+    return correct(before_, tangent_before_, step, position_tolerance, step < 0 ? bend_before : bend_after);
+  };
+  const auto by_tangents = [&](double step) { return at(step).tangent[tangent_.size() - 1]; };
+  const auto by_differences = [&](double step) {
+    return at(step + h).point.parameter - at(step - h).point.parameter;
+  };
+  const auto solve = [&](const auto &slope, double slope_first, double slope_last) {
+    if (!(slope_first * slope_last < 0)) // noise of a poorly resolved branch
+      no_convergence();
+    std::uintmax_t evaluations = 30;
+    const auto found =
+        boost::math::tools::toms748_solve(slope, first + h, last - h, slope_first, slope_last,
+                                          boost::math::tools::eps_tolerance<double>(30), evaluations);
+    return at((found.first + found.second) / 2).point;
+  };
+  const double tangent_first = by_tangents(first + h);
+  const double tangent_last = by_tangents(last - h);
+  return tangent_first * tangent_last < 0
+             ? solve(by_tangents, tangent_first, tangent_last)
+             : solve(by_differences, by_differences(first + h), by_differences(last - h));
+}
+
+BranchPoint Branch::before_fold(const BranchPoint &fold, double parameter) const {
+  const BranchPoint &begin = along_tangent_before(fold) > 0 ? before_ : oldest_;
+  // Near the fold the parameter lacks the square of the way.
+  const double way = std::sqrt((fold.parameter - parameter) / (fold.parameter - begin.parameter));
+  system_->take(path_(parameter));
+  return {solve_steady(*system_, fold.unknowns + way * (begin.unknowns - fold.unknowns), position_tolerance),
+          parameter};
+}
+
+} // namespace capsule

@@ -1,0 +1,89 @@
+#pragma once
+// Branches of steady states: Newton's method at given parameters, and pseudo-arclength continuation along one
+// parameter, through folds, from guesses that bend with the branch. A point is (unknowns of
+// steady_system.hpp, parameter), and the parameter should be scaled to go through about one. Lengths along
+// a branch add the root mean square displacement of the nodes to it, with a weight that makes both count: a
+// shell that buckles turns a branch within displacements of 1e-3.
+#include "steady/steady_system.hpp"
+#include <functional>
+
+namespace capsule {
+
+// The case at a value of the parameter. The scene stays the same.
+using Path = std::function<Case(double)>;
+
+struct BranchPoint {
+  Vector unknowns;
+  double parameter = 0;
+};
+
+// The steady state next to a guess, at the parameters that the system has taken; position to `tolerance`.
+// Throws NumericsFailure("unresolved") if Newton's method does not converge, or what is wrong with the shape.
+Vector solve_steady(SteadySystem &system, Vector guess, double tolerance);
+
+class Branch {
+public:
+  // Along the branch; and how far the last correction of a point may be, in displacement. The next one would be
+  // about its square.
+  struct Steps {
+    double first, largest, tolerance;
+  };
+  // `start` is near to a steady state, at the same place along `direction` (changes of the unknowns, then
+  // of the parameter), which also tells the side on which the branch begins.
+  Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction, const Steps &steps);
+  // ... to where the parameter grows.
+  static Vector upwards(const SteadySystem &system);
+
+  const BranchPoint &point() const { return point_; }
+  // Length of the next step as Steps::first has it, without a weight.
+  double plain_step() const;
+  // The direction in which the branch goes on.
+  const Vector &tangent() const { return tangent_; }
+  // The same of the point before.
+  const BranchPoint &point_before() const { return before_; }
+  const Vector &tangent_before() const { return tangent_before_; }
+
+  // To the next point. Throws NumericsFailure when the smallest step fails; the branch stays where it was.
+  void advance();
+  // Whether the last point is poorly resolved: then the exact derivative is not that of the discrete equations any
+  // more, and Newton's method soon fails.
+  bool wants_a_finer_mesh() const;
+  // The steady state between the last two points at a parameter between theirs.
+  BranchPoint at_parameter(double parameter) const;
+  // Whether the parameter has turned back in the last step or shortly before it, and the fold there. Throws
+  // NumericsFailure where a mesh is so poor that a turn of the points is none of the branch.
+  bool turned() const;
+  // Whether the tangent sees it, too; if not, the mesh resolves some part of the shape too poorly to tell.
+  bool tangent_has_turned() const;
+  BranchPoint fold() const;
+  // The steady state on the near side of that fold, at a parameter between the fold's and that of the last point before.
+  BranchPoint before_fold(const BranchPoint &fold, double parameter) const;
+
+private:
+  struct Corrected {
+    BranchPoint point;
+    Vector tangent;
+    // Of the second correction to the first, less that of the third to the second; 0 if there was one only.
+    double contraction = 0;
+  };
+  Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
+                    const Vector &curvature) const;
+  Vector curvature() const;
+  Vector parameter_slope(const BranchPoint &at) const;
+  double weighted(const Vector &a, const Vector &b) const;
+  double along_tangent_before(const BranchPoint &at) const;
+  Vector bend_towards(const BranchPoint &end) const;
+  void balance();
+
+  SteadySystem *system_;
+  Path path_;
+  BranchPoint point_, before_, oldest_;
+  Vector tangent_, tangent_before_;
+  Steps steps_;
+  double step_;
+  int points_ = 1;
+  int trend_, trend_before_ = 0;
+  double weight_ = 1; // of displacements
+};
+
+} // namespace capsule

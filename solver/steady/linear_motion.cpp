@@ -1,0 +1,199 @@
+#include "steady/linear_motion.hpp"
+#include <numbers>
+#include <utility>
+
+namespace capsule {
+namespace {
+
+// Shape and load f = q/eps at points of the meridian, from what they are at the nodes.
+struct Frame {
+  const Sampling *at; // the points
+  Vector r, arc;
+  Vector tangent_x, tangent_r; // downstream; the normal is (-tangent_r, tangent_x)
+  Vector turning;              // of the tangent, d alpha/dzeta
+  Vector load_tangent, load_normal, load_tangent_zeta, load_normal_zeta;
+};
+
+Frame frame_at(const Sampling &at, const Vector &position, const Vector &load) {
+  const Eigen::Index n = position.size() / 2;
+  Frame frame;
+  frame.at = &at;
+  frame.r = frame.at->odd[0] * position.tail(n);
+  const Eigen::ArrayXd x_zeta = frame.at->even[1] * position.head(n);
+  const Eigen::ArrayXd r_zeta = frame.at->odd[1] * position.tail(n);
+  const Eigen::ArrayXd x_second = frame.at->even[2] * position.head(n);
+  const Eigen::ArrayXd r_second = frame.at->odd[2] * position.tail(n);
+  const Eigen::ArrayXd arc = (x_zeta.square() + r_zeta.square()).sqrt();
+  const Eigen::ArrayXd t_x = x_zeta / arc;
+  const Eigen::ArrayXd t_r = r_zeta / arc;
+  const Eigen::ArrayXd turning = (x_zeta * r_second - r_zeta * x_second) / arc.square();
+  const Eigen::ArrayXd f_x = frame.at->even[0] * load.head(n);
+  const Eigen::ArrayXd f_r = frame.at->odd[0] * load.tail(n);
+  const Eigen::ArrayXd f_x_zeta = frame.at->even[1] * load.head(n);
+  const Eigen::ArrayXd f_r_zeta = frame.at->odd[1] * load.tail(n);
+  const Eigen::ArrayXd f_t = f_x * t_x + f_r * t_r;
+  const Eigen::ArrayXd f_n = f_r * t_x - f_x * t_r;
+  frame.arc = arc;
+  frame.tangent_x = t_x;
+  frame.tangent_r = t_r;
+  frame.turning = turning;
+  frame.load_tangent = f_t;
+  frame.load_normal = f_n;
+  frame.load_tangent_zeta = f_x_zeta * t_x + f_r_zeta * t_r + turning * f_n;
+  frame.load_normal_zeta = f_r_zeta * t_x - f_x_zeta * t_r - turning * f_t;
+  return frame;
+}
+
+// A vector at each point that depends on a displacement there.
+struct Pointwise {
+  Eigen::ArrayXd xx, xr, rx, rr;
+};
+
+// tt (t.d) t + tn (n.d) t + nt (t.d) n + nn (n.d) n
+Pointwise dyads(const Frame &frame, const Eigen::ArrayXd &tt, const Eigen::ArrayXd &tn,
+                const Eigen::ArrayXd &nt, const Eigen::ArrayXd &nn) {
+  const auto t_x = frame.tangent_x.array();
+  const auto t_r = frame.tangent_r.array();
+  const Eigen::ArrayXd n_x = -t_r;
+  const Eigen::ArrayXd n_r = t_x;
+  return {tt * t_x * t_x + tn * t_x * n_x + nt * n_x * t_x + nn * n_x * n_x,
+          tt * t_x * t_r + tn * t_x * n_r + nt * n_x * t_r + nn * n_x * n_r,
+          tt * t_r * t_x + tn * t_r * n_x + nt * n_r * t_x + nn * n_r * n_x,
+          tt * t_r * t_r + tn * t_r * n_r + nt * n_r * t_r + nn * n_r * n_r};
+}
+
+// Of the displacement's derivative of this order; 2 points x 2N.
+Matrix of_displacement(const Frame &frame, const Pointwise &map, int derivative) {
+  const Matrix &even = frame.at->even[derivative];
+  const Matrix &odd = frame.at->odd[derivative];
+  Matrix result(2 * even.rows(), 2 * even.cols());
+  result << map.xx.matrix().asDiagonal() * even, map.xr.matrix().asDiagonal() * odd,
+      map.rx.matrix().asDiagonal() * even, map.rr.matrix().asDiagonal() * odd;
+  return result;
+}
+
+// Change of the area element r s' relative to it, points x 2N.
+Matrix area_change(const Frame &frame) {
+  const Eigen::Index n = frame.at->even[0].cols();
+  Matrix change(frame.r.size(), 2 * n);
+  change << (frame.tangent_x.array() / frame.arc.array()).matrix().asDiagonal() * frame.at->even[1],
+      (frame.tangent_r.array() / frame.arc.array()).matrix().asDiagonal() * frame.at->odd[1];
+  change.rightCols(n) += frame.r.cwiseInverse().asDiagonal() * frame.at->odd[0];
+  return change;
+}
+
+// Change of the nodal load in a displacement.
+Matrix nodal_load_change(const Membrane &membrane, const Vector &position, const Frame &at_nodes,
+                         const Vector &load, double capillary_number) {
+  const Eigen::Index n = membrane.basis.size();
+  const Vector mass = capillary_number * nodal_area(membrane, position);
+  Matrix change = -energy_hessian(membrane, position);
+  const Matrix area = area_change(at_nodes);
+  for (const Eigen::Index first : {Eigen::Index{0}, n}) {
+    auto rows = change.middleRows(first, n);
+    rows = mass.cwiseInverse().asDiagonal() * rows;
+    rows -= load.segment(first, n).asDiagonal() * area;
+  }
+  return change;
+}
+
+// f' of the head comment at points: the change of the load and of the area that it acts on, less the stress
+// of its jump on the strips that the displacement sweeps.
+Matrix carried_load_change(const Frame &frame, const Matrix &nodal_change, const Vector &load) {
+  const Eigen::Index points = frame.r.size();
+  const Eigen::Index n = frame.at->even[0].cols();
+  const Matrix area = area_change(frame);
+  Matrix change(2 * points, 2 * n);
+  change.topRows(points) = frame.at->even[0] * nodal_change.topRows(n);
+  change.bottomRows(points) = frame.at->odd[0] * nodal_change.bottomRows(n);
+  change.topRows(points) += (frame.at->even[0] * load.head(n)).asDiagonal() * area;
+  change.bottomRows(points) += (frame.at->odd[0] * load.tail(n)).asDiagonal() * area;
+
+  const auto r = frame.r.array();
+  const auto arc = frame.arc.array();
+  const auto f_t = frame.load_tangent.array();
+  const auto f_n = frame.load_normal.array();
+  // r [(f_t d_t - f_n d_n) t + (f_n d_t - f_t d_n) n] over r s', differentiated
+  const Eigen::ArrayXd r_zeta = arc * frame.tangent_r.array();
+  const Eigen::ArrayXd growth_t = (frame.load_tangent_zeta.array() + r_zeta / r * f_t) / arc;
+  const Eigen::ArrayXd growth_n = (frame.load_normal_zeta.array() + r_zeta / r * f_n) / arc;
+  const Eigen::ArrayXd turning = 2 * frame.turning.array() * f_t / arc;
+  change -=
+      of_displacement(frame, dyads(frame, growth_t, turning - growth_n, turning + growth_n, -growth_t), 0);
+  change -= of_displacement(frame, dyads(frame, f_t / arc, -f_n / arc, f_n / arc, -f_t / arc), 1);
+  // The hoop stress on the strip between the two surfaces.
+  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(points);
+  const Pointwise hoop{none, none, -f_n * frame.tangent_r.array() / r, f_n * frame.tangent_x.array() / r};
+  change -= of_displacement(frame, hoop, 0);
+  return change;
+}
+
+// w of the head comment.
+Matrix slip(const Frame &frame) {
+  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(frame.r.size());
+  return of_displacement(frame, dyads(frame, none, frame.load_tangent, none, none), 0);
+}
+
+// What a field at the panels' points has more than the interpolant of its values at the nodes.
+Matrix beyond_nodes(const Frame &at_panels, const Matrix &panel_field, const Matrix &nodal_field) {
+  const Eigen::Index n = nodal_field.rows() / 2;
+  const Eigen::Index points = panel_field.rows() / 2;
+  Matrix rest = panel_field;
+  rest.topRows(points) -= at_panels.at->even[0] * nodal_field.topRows(n);
+  rest.bottomRows(points) -= at_panels.at->odd[0] * nodal_field.bottomRows(n);
+  return rest;
+}
+
+// d.grad u of the inner flow, which the shear inside, the velocity along the meridian and the constant
+// volume of the liquid tell.
+Matrix advance_of_inner_flow(const Frame &at_nodes, const Vector &shear, const Vector &velocity) {
+  const Eigen::Index n = at_nodes.r.size();
+  const auto t_x = at_nodes.tangent_x.array();
+  const auto t_r = at_nodes.tangent_r.array();
+  const Eigen::ArrayXd along_x = (at_nodes.at->even[1] * velocity.head(n)).array() / at_nodes.arc.array();
+  const Eigen::ArrayXd along_r = (at_nodes.at->odd[1] * velocity.tail(n)).array() / at_nodes.arc.array();
+  const Eigen::ArrayXd along_t = along_x * t_x + along_r * t_r;
+  const Eigen::ArrayXd along_n = along_r * t_x - along_x * t_r;
+  const Eigen::ArrayXd across_t = shear.array() - along_n;
+  const Eigen::ArrayXd across_n = -along_t - velocity.tail(n).array() / at_nodes.r.array();
+  return of_displacement(at_nodes, dyads(at_nodes, along_t, across_t, along_n, across_n), 0);
+}
+
+// t.sigma n inside: the traction that goes with the velocity there, S sigma n/(8 pi) = v/2 - D v; a
+// pressure is free in it.
+Vector inner_shear(const FlowSystem::Layers &layers, const Frame &at_nodes, const Vector &area,
+                   const Vector &velocity) {
+  const Eigen::Index n = area.size();
+  Vector normal(2 * n);
+  normal << -at_nodes.tangent_r, at_nodes.tangent_x;
+  Matrix single = layers.single;
+  single += normal * normal.cwiseProduct(area.replicate(2, 1)).transpose();
+  const Vector traction = single.partialPivLu().solve(0.5 * velocity - layers.dbl * velocity);
+  return traction.head(n).cwiseProduct(at_nodes.tangent_x) +
+         traction.tail(n).cwiseProduct(at_nodes.tangent_r);
+}
+
+} // namespace
+
+LinearMotion linear_motion(const FlowSystem &flow, const FlowSystem::Interaction &shape,
+                           const Membrane &membrane, const Sampling &panels, const Vector &position,
+                           const Vector &velocity, double capillary_number) {
+  const Vector load = membrane_load(membrane, position) / capillary_number;
+  const Frame at_nodes = frame_at(membrane.at_nodes, position, load);
+  const Frame at_panels = frame_at(panels, position, load);
+  const Matrix nodal_change = nodal_load_change(membrane, position, at_nodes, load, capillary_number);
+  const Matrix change = carried_load_change(at_nodes, nodal_change, load);
+  const Matrix jump = slip(at_nodes);
+
+  const FlowSystem::Layers layers = flow.layers(shape);
+  const Vector shear = inner_shear(layers, at_nodes, nodal_area(membrane, position), velocity);
+  Matrix equal_viscosities =
+      layers.single * change - 0.5 * jump - layers.dbl * jump +
+      shape.single_mm * beyond_nodes(at_panels, carried_load_change(at_panels, nodal_change, load), change) /
+          (8 * std::numbers::pi) -
+      shape.double_mm * beyond_nodes(at_panels, slip(at_panels), jump) +
+      advance_of_inner_flow(at_nodes, shear, velocity);
+  return {std::move(equal_viscosities), layers.dbl};
+}
+
+} // namespace capsule

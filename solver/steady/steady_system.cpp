@@ -1,0 +1,291 @@
+#include "steady/steady_system.hpp"
+#include "base/failure.hpp"
+#include "motion/dynamics.hpp"
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+namespace capsule {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// Beyond the tips: the disturbance has fallen to 1e-9 there.
+constexpr double wall_beyond = 4.7;
+
+// The wall and everything about the flow that no parameter changes. epsilon and lambda are one.
+Case scene_of(const Case &physics) {
+  Case scene = physics;
+  if (scene.pore.shape == PoreShape::hyperbolic)
+    scene.pore.shape = PoreShape::tube;
+  scene.flow.capillary_number = 1;
+  scene.flow.viscosity_ratio = 1;
+  return scene;
+}
+
+// Half the length of the tube for a capsule whose tips are as far from its centre: with room to grow.
+double tube_for(double tip) {
+  return 1.25 * tip + wall_beyond;
+}
+
+} // namespace
+
+SteadySystem::SteadySystem(const Case &physics, const Resolution &resolution, const Vector &node_angle)
+    : scene_(scene_of(physics)), resolution_(resolution), membrane_(standard_membrane(physics, resolution)) {
+  membrane_.node_angle = node_angle;
+  take(physics);
+  half_length_ = tube_for(membrane_.reference.head(nodes()).cwiseAbs().maxCoeff());
+  build_flow();
+  const Vector points = flow_->panel_points();
+  panels_ = sample(membrane_.basis, points, Vector());
+}
+
+void SteadySystem::build_flow() {
+  scene_.pore.exit_x = half_length_;
+  scene_.pore.entrance_distance = half_length_;
+  resolution_.flow.fine_half_length = half_length_ - wall_beyond;
+  flow_.emplace(scene_, membrane_.basis, resolution_.flow);
+}
+
+void SteadySystem::take(const Case &physics) {
+  take_physics(physics, membrane_);
+  centre_weights_ = nodal_area(membrane_, membrane_.reference);
+  centre_weights_ /= centre_weights_.sum();
+  scene_.capsule = physics.capsule;
+  scene_.membrane = physics.membrane;
+  capillary_number_ = physics.flow.capillary_number;
+  volume_ = 4 * pi / 3 * std::pow(physics.capsule.radius, 3);
+}
+
+Vector SteadySystem::undeformed() const {
+  Vector unknowns = Vector::Zero(2 * nodes() + 2);
+  unknowns.head(2 * nodes()) = membrane_.reference;
+  if (scene_.pore.shape != PoreShape::none)
+    unknowns[2 * nodes()] = 2 - 4.0 / 3 * std::pow(std::min(scene_.capsule.radius, 0.8), 2);
+  return unknowns;
+}
+
+double SteadySystem::largest_stretch(const Vector &unknowns) const {
+  return membrane_state(membrane_, membrane_.at_nodes, unknowns.head(2 * nodes()))
+      .stretch_meridional.maxCoeff();
+}
+
+void SteadySystem::fit_tube(const Vector &unknowns) {
+  if (scene_.pore.shape == PoreShape::none)
+    return;
+  const double tip = unknowns.head(nodes()).cwiseAbs().maxCoeff();
+  if (tip + wall_beyond < half_length_)
+    return;
+  half_length_ = tube_for(tip);
+  build_flow();
+}
+
+double SteadySystem::admissible_step(const Vector &unknowns, const Vector &change) const {
+  constexpr double keep = 0.3; // of the distance to the wall and to the axis
+  const Eigen::Index n = nodes();
+  const bool wall = scene_.pore.shape != PoreShape::none;
+  double step = 1;
+  for (Eigen::Index k = n; k < 2 * n; ++k) {
+    const double r = unknowns[k];
+    if (change[k] < 0)
+      step = std::min(step, (1 - keep) * r / -change[k]);
+    else if (wall)
+      step = std::min(step, (1 - keep) * (1 - r) / change[k]);
+  }
+  return step;
+}
+
+void SteadySystem::require_capsule(const Vector &position) const {
+  const auto r = position.tail(nodes());
+  if (!position.allFinite())
+    throw NumericsFailure("not-a-number", "the membrane's position is not a number",
+                          "try a finer mesh.membrane");
+  if (r.minCoeff() <= 0)
+    throw NumericsFailure("folded", "the membrane crosses the axis", "try a larger membrane.bending_ratio");
+  if (scene_.pore.shape == PoreShape::none)
+    return;
+  if (r.maxCoeff() >= 1)
+    throw NumericsFailure("touching", "the membrane touches the wall", "try a larger flow.capillary_number");
+  if (position.head(nodes()).cwiseAbs().maxCoeff() > half_length_ - 0.1)
+    throw NumericsFailure("exit", "the membrane is longer than any capsule",
+                          "try a smaller flow.capillary_number");
+}
+
+// Rows: centre and volume; columns: nodal positions.
+Eigen::Matrix<double, 2, Eigen::Dynamic> SteadySystem::constraint_slopes(const Vector &position) const {
+  const Eigen::Index n = nodes();
+  const auto weights = membrane_.basis.weights.array();
+  const auto r = position.tail(n).array();
+  const Vector x_zeta = membrane_.at_nodes.even[1] * position.head(n);
+  Eigen::Matrix<double, 2, Eigen::Dynamic> slopes(2, 2 * n);
+  slopes.setZero();
+  slopes.row(0).head(n) = centre_weights_;
+  slopes.row(1).head(n) =
+      pi * (membrane_.at_nodes.even[1].transpose() * (weights * r.square()).matrix()).transpose();
+  slopes.row(1).tail(n) = 2 * pi * weights * r * x_zeta.array();
+  return slopes;
+}
+
+Vector SteadySystem::equations(const Vector &unknowns, const Vector &velocity) const {
+  const Eigen::Index n = nodes();
+  const Vector position = unknowns.head(2 * n);
+  const auto weights = membrane_.basis.weights.array();
+  const auto r = position.tail(n).array();
+  const Vector x_zeta = membrane_.at_nodes.even[1] * position.head(n);
+  const Vector r_zeta = membrane_.at_nodes.odd[1] * position.tail(n);
+  const Eigen::ArrayXd arc = (x_zeta.array().square() + r_zeta.array().square()).sqrt();
+  Vector rows(2 * n + 2);
+  rows.head(2 * n) = velocity;
+  rows.head(n).array() -= unknowns[2 * n];
+  rows.head(n).array() -= unknowns[2 * n + 1] * r_zeta.array() / arc;
+  rows.segment(n, n).array() += unknowns[2 * n + 1] * x_zeta.array() / arc;
+  rows[2 * n] = centre_weights_.dot(position.head(n));
+  rows[2 * n + 1] = pi * (weights * r.square() * x_zeta.array()).sum() - volume_;
+  return rows;
+}
+
+Vector SteadySystem::residual(const Vector &unknowns) const {
+  const Vector position = unknowns.head(2 * nodes());
+  require_capsule(position);
+  FlowSystem::Memory unused;
+  const Vector load = membrane_load(membrane_, position) / capillary_number_;
+  return equations(unknowns, flow_->flow(flow_->interact(position), load, unused).velocity);
+}
+
+SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) const {
+  const Eigen::Index n = nodes();
+  const Vector position = unknowns.head(2 * n);
+  require_capsule(position);
+  FlowSystem::Memory unused;
+  const FlowSystem::Interaction shape = flow_->interact_in_full(position);
+  const Vector load = membrane_load(membrane_, position) / capillary_number_;
+  const Vector velocity = flow_->flow(shape, load, unused).velocity;
+  LinearMotion motion =
+      linear_motion(*flow_, shape, membrane_, panels_, position, velocity, capillary_number_);
+  Linearisation result;
+  result.residual = equations(unknowns, velocity);
+  result.double_layer = std::move(motion.double_layer);
+  Matrix &jacobian = result.jacobian;
+  jacobian = Matrix::Zero(2 * n + 2, 2 * n + 2);
+  jacobian.topLeftCorner(2 * n, 2 * n) = motion.equal_viscosities;
+  jacobian.bottomLeftCorner(2, 2 * n) = constraint_slopes(position);
+  Vector unit = unknowns; // equations are linear in V and the slack
+  unit[2 * n + 1] = 1;
+  Vector none = unknowns;
+  none[2 * n + 1] = 0;
+  jacobian.col(2 * n + 1) = equations(unit, Vector::Zero(2 * n)) - equations(none, Vector::Zero(2 * n));
+  jacobian.col(2 * n).head(n).setConstant(-1);
+  return result;
+}
+
+// What v' of linear_motion.hpp is multiplied with; the identity for equal viscosities.
+Matrix SteadySystem::velocity_operator(const Linearisation &linear, double viscosity_ratio) const {
+  const Eigen::Index n2 = 2 * nodes();
+  return (1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio - 1) * linear.double_layer;
+}
+
+Matrix SteadySystem::small_motion(const Vector &unknowns, double viscosity_ratio) const {
+  return small_motion(linearise(unknowns), viscosity_ratio);
+}
+
+Matrix SteadySystem::small_motion(const Linearisation &linear, double viscosity_ratio) const {
+  const Eigen::Index n2 = 2 * nodes();
+  return velocity_operator(linear, viscosity_ratio)
+      .partialPivLu()
+      .solve(linear.jacobian.topLeftCorner(n2, n2));
+}
+
+namespace {
+
+bool grows_more(const std::complex<double> &a, const std::complex<double> &b) {
+  return a.real() > b.real();
+}
+
+} // namespace
+
+Eigen::VectorXcd SteadySystem::all_growth_rates(const Vector &unknowns, double viscosity_ratio) const {
+  return all_growth_rates(linearise(unknowns), viscosity_ratio);
+}
+
+Eigen::VectorXcd SteadySystem::all_growth_rates(const Linearisation &linear, double viscosity_ratio) const {
+  const Eigen::Index n2 = 2 * nodes();
+  const Matrix constraints = linear.jacobian.bottomLeftCorner(2, n2);
+  const Matrix border = linear.jacobian.topRightCorner(n2, 2);
+  Matrix motion = small_motion(linear, viscosity_ratio);
+  motion -= border * (constraints * border).partialPivLu().solve(constraints * motion);
+  const Matrix directions = Eigen::HouseholderQR<Matrix>(constraints.transpose()).householderQ();
+  const auto allowed = directions.rightCols(n2 - 2);
+  Eigen::VectorXcd rates =
+      Eigen::EigenSolver<Matrix>(allowed.transpose() * motion * allowed, false).eigenvalues();
+  std::sort(rates.begin(), rates.end(), grows_more);
+  return rates;
+}
+
+// Arnoldi's method on the inverse: the displacement that keeps centre and volume and whose rate, seen from the
+// centre, is given. The bordered matrix of Newton's method is what to solve with; its border, along which
+// centre and volume are corrected, belongs to the velocity and goes with it to the other viscosity ratio. What
+// grows is alone on its side of the inverse's spectrum and shows early, but perhaps not what grows fastest.
+Eigen::VectorXcd SteadySystem::growth_rates(const Vector &unknowns, double viscosity_ratio) const {
+  constexpr Eigen::Index most_vectors = 80;
+  constexpr double converged = 1e-8, visible = 0.1; // relative residuals of an eigenvalue
+  const Eigen::Index n2 = 2 * nodes();
+  const Linearisation linear = linearise(unknowns);
+  const Matrix on_velocity = velocity_operator(linear, viscosity_ratio);
+  Matrix bordered = linear.jacobian;
+  bordered.topRightCorner(n2, 2) = on_velocity * linear.jacobian.topRightCorner(n2, 2);
+  const Eigen::PartialPivLU<Matrix> factors(bordered);
+  const auto inverse = [&](const Vector &rate) -> Vector {
+    Vector right = Vector::Zero(n2 + 2);
+    right.head(n2) = on_velocity * rate;
+    return factors.solve(right).head(n2);
+  };
+  const Eigen::Index m = std::min(most_vectors, n2 - 2);
+  Matrix basis(n2, m + 1);
+  Matrix hessenberg = Matrix::Zero(m + 1, m);
+  const auto zeta = membrane_.basis.nodes.array();
+  Vector any(n2); // with a share of every wave
+  any << (1 / (1.25 - zeta.cos())), (zeta.sin() / (1.25 - (zeta + 0.3).cos()));
+  basis.col(0) = inverse(any).normalized();
+  Eigen::Index size = 0;
+  while (size < m) {
+    Vector next = inverse(basis.col(size));
+    const double length = next.norm();
+    for (int again = 0; again < 2; ++again) {
+      const Vector parts = basis.leftCols(size + 1).transpose() * next;
+      next -= basis.leftCols(size + 1) * parts;
+      hessenberg.col(size).head(size + 1) += parts;
+    }
+    const double rest = next.norm();
+    hessenberg(size + 1, size) = rest;
+    ++size;
+    if (rest < 1e-14 * length) // the space is invariant: all its eigenvalues are exact
+      break;
+    basis.col(size) = next / rest;
+  }
+  const Eigen::EigenSolver<Matrix> eigen(hessenberg.topLeftCorner(size, size));
+  std::vector<std::complex<double>> rates;
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const std::complex<double> value = eigen.eigenvalues()[k];
+    const double residual = hessenberg(size, size - 1) * std::abs(eigen.eigenvectors()(size - 1, k));
+    if (value.real() > 0 && residual < visible * std::abs(value))
+      return all_growth_rates(linear, viscosity_ratio);
+    if (residual < converged * std::abs(value))
+      rates.push_back(1.0 / value);
+  }
+  if (rates.empty())
+    throw NumericsFailure("unresolved", "the growth rates do not converge", "try a finer mesh.membrane");
+  std::sort(rates.begin(), rates.end(), grows_more);
+  return Eigen::Map<Eigen::VectorXcd>(rates.data(), std::ssize(rates));
+}
+
+FlowState SteadySystem::flow(const Vector &position) const {
+  FlowSystem::Memory unused;
+  const FlowSystem::Interaction shape = flow_->interact(position);
+  const Vector load = membrane_load(membrane_, position) / capillary_number_;
+  FlowState state = flow_->flow(shape, load, unused);
+  state.pressure_drop_reciprocal = flow_->reciprocal_pressure_drop(shape, load, state.velocity, unused);
+  return state;
+}
+
+} // namespace capsule

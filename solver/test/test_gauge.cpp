@@ -1,0 +1,142 @@
+// What a row reports, on shapes and velocities for which it is known.
+#include "observe/gauge.hpp"
+#include <array>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+using namespace capsule;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Case sphere_in_pore(double radius, double start_x) {
+  Case physics;
+  physics.capsule.radius = radius;
+  physics.capsule.start_x = start_x;
+  physics.flow.capillary_number = 0.1;
+  return physics;
+}
+
+struct Body {
+  MeridianBasis basis;
+  Membrane membrane;
+  Gauge gauge;
+};
+
+Body body(const Case &physics, int nodes) {
+  const MeridianBasis basis = spectral_basis(nodes);
+  const Membrane membrane = make_membrane(physics, basis, basis.nodes, basis.weights);
+  return {basis, membrane, Gauge(physics, membrane)};
+}
+
+Vector moved(const Vector &reference, double x) {
+  Vector position = reference;
+  position.head(reference.size() / 2).array() += x;
+  return position;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(observables)
+
+BOOST_AUTO_TEST_CASE(sphere_in_the_tube) {
+  const double a = 0.7;
+  const Body b = body(sphere_in_pore(a, -4), 24);
+  const Vector position = moved(b.membrane.reference, 5);
+  // v = (u + s (x - 5), c r): flux through the sphere moves its centre by u, with c = -s/2 its volume stays.
+  const double u = 1.3;
+  const double s = 0.2;
+  const Eigen::Index n = b.basis.size();
+  Vector velocity(2 * n);
+  velocity << u + s * (position.head(n).array() - 5), -s / 2 * position.tail(n).array();
+  const SeriesRow row = b.gauge.row(2, position, velocity);
+  BOOST_TEST(std::abs(row.x_g - 5) < 1e-12);
+  BOOST_TEST(std::abs(row.v_g - u) < 1e-12);
+  BOOST_TEST(std::abs(row.min_film - (1 - a)) < 1e-9);
+  BOOST_TEST(std::abs(row.length - 2 * a) < 1e-9);
+  BOOST_TEST(std::abs(row.deformation) < 1e-9);
+  BOOST_TEST(std::abs(row.max_stretch - 1) < 1e-10);
+  BOOST_TEST(std::abs(row.volume_change) < 1e-12);
+  BOOST_TEST(std::abs(row.area_change) < 1e-12);
+  BOOST_TEST(std::abs(row.max_axial_residual - s * a * std::cos(b.basis.nodes[0])) < 1e-12);
+  BOOST_TEST(row.dents == 0);
+  BOOST_TEST(row.roughness < 1e-10);
+}
+
+// In the reservoir the nearest point of the wall is the lip's side of the hyperbola; brute force over it.
+BOOST_AUTO_TEST_CASE(film_in_the_mouth) {
+  const double a = 0.8;
+  const double centre = -1.1;
+  const Body b = body(sphere_in_pore(a, centre), 48);
+  double nearest = 10;
+  const double slope = std::tan(78.5 * pi / 180);
+  for (int i = 0; i <= 40000; ++i) {
+    const double x = -2 + i * 1e-4;
+    const double r = x < 0 ? std::sqrt(1 + x * x * slope * slope) : 1;
+    nearest = std::min(nearest, std::hypot(x - centre, r) - a);
+  }
+  BOOST_TEST(std::abs(b.gauge.film(moved(b.membrane.reference, centre)) - nearest) < 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(dents_and_crossings_are_seen) {
+  const Body b = body(sphere_in_pore(0.8, -4), 48);
+  const Eigen::Index n = b.basis.size();
+  const Eigen::ArrayXd zeta = b.basis.nodes;
+  Vector wavy(2 * n); // a ripple of 12 waves, deep enough to turn the meridian back
+  const Eigen::ArrayXd radius = 0.8 + 0.02 * (24 * zeta).cos();
+  wavy << -radius * zeta.cos(), radius * zeta.sin();
+  const SeriesRow row = b.gauge.row(0, wavy, Vector::Zero(2 * n));
+  BOOST_TEST(row.dents == 12);
+  BOOST_TEST(!b.gauge.crosses_itself(wavy));
+  Vector looped = b.membrane.reference; // x = 4.8 z^3 - 4.4 z with z = cos(zeta) meets itself at x = 0
+  looped.head(n).array() += 1.2 * (3 * zeta).cos();
+  BOOST_TEST(b.gauge.crosses_itself(looped));
+}
+
+// S runs from pole to pole, half the circumference; profiles carry the sphere's curvature.
+BOOST_AUTO_TEST_CASE(profile_of_a_sphere) {
+  const Body b = body(sphere_in_pore(0.8, -4), 32);
+  const Profile profile = b.gauge.profile(1, b.membrane.reference, Vector::Ones(64));
+  const Eigen::Index last = profile.S.size() - 1;
+  BOOST_TEST(std::abs(profile.S[last] - 0.8 * pi) < 1e-4);
+  BOOST_TEST((profile.curvature_meridional.array() - 1 / 0.8).abs().maxCoeff() < 1e-8);
+  BOOST_TEST((profile.curvature_azimuthal.array() - 1 / 0.8).abs().maxCoeff() < 1e-8);
+  BOOST_TEST(profile.tension_meridional.cwiseAbs().maxCoeff() < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(entry_peak_of_a_pulse) {
+  // Rises to a peak between two rows, dips, and goes on to a higher plateau with ripples below a thousandth.
+  std::vector<SeriesRow> series;
+  const double peak_at = 0.123;
+  for (int i = 0; i <= 300; ++i) {
+    SeriesRow row;
+    row.x_g = -4 + 0.05 * i + 0.004 * std::sin(i); // uneven
+    const double entry = 6 * std::exp(-std::pow((row.x_g - peak_at) / 0.8, 2));
+    const double plateau = 14 / (1 + std::exp(-4 * (row.x_g - 4)));
+    row.pressure_drop = entry + plateau + 0.001 * std::sin(3 * i);
+    series.push_back(row);
+  }
+  const auto peak = entry_peak(series);
+  BOOST_REQUIRE(peak);
+  BOOST_TEST(std::abs(peak->x_g - peak_at) < 0.05);
+  BOOST_TEST(std::abs(peak->pressure_drop - 6) < 0.01);
+
+  // A parabola is met exactly, wherever the rows are.
+  std::vector<SeriesRow> parabola(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    parabola[i].x_g = std::array{0.0, 0.7, 1.1, 2.0}.at(i);
+    parabola[i].pressure_drop = 3 - std::pow(parabola[i].x_g - 0.8, 2);
+  }
+  BOOST_TEST(entry_peak(parabola)->x_g == 0.8, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(entry_peak(parabola)->pressure_drop == 3, boost::test_tools::tolerance(1e-14));
+
+  // Without a fall: the largest value.
+  parabola.resize(2);
+  BOOST_TEST(entry_peak(parabola)->pressure_drop == parabola[1].pressure_drop);
+  BOOST_TEST(!entry_peak({}));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,222 @@
+// Files of a run: what they say, whose they are, sharing and replacing.
+#include "base/atomic_file.hpp"
+#include "base/json_file.hpp"
+#include "case/case_file.hpp"
+#include "output/results.hpp"
+#include "output/summary.hpp"
+#include "random_checkpoint.hpp"
+#include "temporary_directory.hpp"
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+using namespace capsule;
+namespace fs = std::filesystem;
+
+namespace {
+
+Case pore_case() {
+  Case physics;
+  physics.title = "test";
+  physics.capsule.radius = 0.9;
+  physics.flow.capillary_number = 0.04;
+  physics.until.x_g = 11.84;
+  return physics;
+}
+
+Outcome outcome_with(const Checkpoint &last) {
+  Outcome outcome;
+  outcome.status = Status::reached;
+  outcome.last = last;
+  outcome.error_estimate["v_g"] = 1e-5;
+  return outcome;
+}
+
+std::vector<std::string> lines_of(const fs::path &file) {
+  std::vector<std::string> lines;
+  std::istringstream stream(content_of(file));
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(damaged_provenance_is_named) {
+  const TemporaryDirectory directory;
+  directory.write("summary.json", "{}");
+  for (const char *damaged : {"[]", "3", "{\"identity\": 3}"}) {
+    const auto file = directory.write("run.json", damaged);
+    BOOST_TEST(failure_of([&] { is_finished(directory.path, "abc"); }).find(file.string()) !=
+               std::string::npos);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(results_of_a_run) {
+  const TemporaryDirectory directory;
+  const Case physics = pore_case();
+  Checkpoint last = random_checkpoint();
+  for (std::size_t i = 0; i < last.series.size(); ++i)
+    last.series[i].x_g = static_cast<double>(i);
+  last.series.back().max_radial_velocity = std::nan("");
+  write_checkpoint(directory.path, run_identity(physics), {last, {}});
+  BOOST_TEST(!is_finished(directory.path, run_identity(physics)));
+  write_results(directory.path, physics, outcome_with(last), {"2002-01-01T00:00:00Z", 1.5, 2.5});
+  BOOST_TEST(is_finished(directory.path, run_identity(physics)));
+  BOOST_TEST(!is_finished(directory.path, "another"));
+  BOOST_TEST(is_finished_input(directory.path, physics));
+  Case longer = physics;
+  longer.until.time = 1000;
+  BOOST_TEST(!is_finished_input(directory.path, longer));
+  BOOST_TEST(!fs::exists(directory.path / "checkpoint.json"));
+  BOOST_TEST(!fs::exists(directory.path / "series_physical.csv"));
+
+  const Summary summary = read_summary(directory.path);
+  BOOST_TEST(summary.status == "reached");
+  BOOST_TEST(summary.failure == "");
+  BOOST_TEST(summary.quantities.at("x_g") == 4);
+  BOOST_TEST(summary.quantities.at("v_g") == last.series.back().v_g);
+  BOOST_TEST(summary.quantities.at("steps") == 1234567);
+  BOOST_TEST(summary.quantities.at("wall_seconds") == 2.5);
+  BOOST_TEST(summary.quantities.count("max_radial_velocity") == 0u);
+  BOOST_TEST(summary.error_estimate.at("v_g") == 1e-5);
+  const std::string text = content_of(directory.path / "summary.json");
+  for (const char *part : {"\"flow.capillary_number\": 0.04", "\"membrane.law\": \"neo-hookean\"",
+                           "\"mesh.wall\": null", "\"max_radial_velocity\": null", "\"failure\": null"})
+    BOOST_CHECK_MESSAGE(text.find(part) != std::string::npos, part << " is not in " << text);
+
+  const auto series = lines_of(directory.path / "series.csv");
+  BOOST_REQUIRE(series.size() == 6u);
+  BOOST_TEST(series[0].starts_with("time,x_g,v_g,pressure_drop,max_stretch,min_film,volume_change"));
+  BOOST_TEST(std::stod(series[1]) == last.series[0].time);
+  const auto profiles = lines_of(directory.path / "profiles.csv");
+  BOOST_REQUIRE(profiles.size() == 1u + 7 + 3);
+  BOOST_TEST(profiles[0].starts_with("time,x_g,S,x,r,stretch_meridional,stretch_azimuthal,tension_meridional,"
+                                     "tension_azimuthal"));
+  BOOST_TEST(read_case(directory.path / "resolved.toml").runs.at(0).physics.capsule.radius == 0.9);
+  const std::string collection = content_of(directory.path / "membrane.pvd");
+  BOOST_TEST(collection.find("membrane_0001.vtp") != std::string::npos);
+  const std::string surface = content_of(directory.path / "membrane_0001.vtp");
+  BOOST_TEST(surface.find("NumberOfPoints=\"96\" NumberOfStrips=\"2\"") != std::string::npos);
+}
+
+// By hand: R_t, Q/(pi R_t^2), mu Q/(pi R_t^3), and of the time R_t over the velocity.
+BOOST_AUTO_TEST_CASE(results_in_physical_units) {
+  const TemporaryDirectory directory;
+  Case physics = pore_case();
+  physics.physical.tube_radius = {5e-6};
+  physics.physical.viscosity = {1e-3};
+  physics.physical.flow_rate = {1e-13};
+  physics.physical.shear_modulus = {2e-5};
+  Checkpoint last = random_checkpoint();
+  SeriesRow &end = last.series.back();
+  end.time = 2;
+  end.x_g = 3;
+  end.v_g = 1.5;
+  end.pressure_drop = 4;
+  end.min_film = 0.1;
+  end.length = 1.7;
+  write_results(directory.path, physics, outcome_with(last), {});
+  const double velocity = 1e-13 / (std::numbers::pi * 25e-12);
+  const std::map<std::string, double> by_hand = {
+      {"time [s]", 2 * 5e-6 / velocity}, {"x_g [m]", 15e-6},
+      {"v_g [m/s]", 1.5 * velocity},     {"pressure_drop [Pa]", 4 * 1e-3 * velocity / 5e-6},
+      {"min_film [m]", 0.5e-6},          {"length [m]", 8.5e-6}};
+  const auto lines = lines_of(directory.path / "series_physical.csv");
+  BOOST_REQUIRE(lines.size() == 6u);
+  const auto summary = read_json(directory.path / "summary.json").value().at("physical");
+  std::istringstream names(lines.front()), values(lines.back());
+  std::size_t columns = 0;
+  for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');
+       ++columns) {
+    BOOST_TEST(std::stod(value) == by_hand.at(name), boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(summary.at(name).get<double>() == std::stod(value));
+  }
+  BOOST_TEST(columns == by_hand.size());
+  BOOST_TEST(summary.at("tension scale [N/m]").get<double>() == 2e-5);
+}
+
+BOOST_AUTO_TEST_CASE(what_another_input_has_left_is_named) {
+  const TemporaryDirectory directory;
+  const Case physics = pore_case();
+  const Task steady{.motion = false, .name = "steady --from there"};
+  const auto other = [&](const Case &asked, const Task &task = {}) {
+    return other_results(directory.path, asked, task);
+  };
+  BOOST_TEST(other(physics) == "");
+  write_checkpoint(directory.path, run_identity(physics), {random_checkpoint(), {}});
+  BOOST_TEST(other(physics) == "");
+  BOOST_TEST(other(physics, steady) == "an interrupted run");
+  write_results(directory.path, physics, outcome_with(random_checkpoint()), {});
+  BOOST_TEST(other(physics) == "");
+  BOOST_TEST(other(physics, steady) == "the results of `capsule run`");
+  Case changed = physics;
+  changed.title = "other words";
+  BOOST_TEST(other(changed) == "");
+  changed.flow.viscosity_ratio = 5;
+  changed.until = {.x_g = {}, .time = 3};
+  BOOST_TEST(other(changed) == "a run with flow.viscosity_ratio = 1, until.x_g = 11.84, no until.time");
+  write_results(directory.path, physics, outcome_with(random_checkpoint()), {}, steady);
+  BOOST_TEST(other(physics, steady) == "");
+  BOOST_TEST(other(physics) == "the results of `capsule steady --from there`");
+  directory.write("run.json", "{}"); // of an earlier version
+  directory.write("resolved.toml", "capsule.radius = -1");
+  BOOST_TEST(other(physics) == "results that cannot be read any more");
+  directory.write("run.json", "{");
+  BOOST_TEST(other(physics) == "results that cannot be read any more");
+}
+
+BOOST_AUTO_TEST_CASE(what_belongs_to_the_pore_is_null_without_one) {
+  const TemporaryDirectory directory;
+  Case physics = pore_case();
+  physics.flow.type = FlowType::extension;
+  write_results(directory.path, physics, outcome_with(random_checkpoint()), {});
+  const Summary summary = read_summary(directory.path);
+  for (const char *name : {"pressure_drop", "peak_pressure_drop", "x_g_at_peak", "min_film"})
+    BOOST_TEST(summary.quantities.count(name) == 0u);
+  BOOST_TEST(summary.quantities.count("deformation") == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_failed_at_once) {
+  const TemporaryDirectory directory;
+  Outcome outcome;
+  outcome.failure = "touching";
+  outcome.message = "at t = 0";
+  write_results(directory.path, pore_case(), outcome, {});
+  const Summary summary = read_summary(directory.path);
+  BOOST_TEST(summary.status == "failed");
+  BOOST_TEST(summary.failure == "touching");
+  BOOST_TEST(summary.message == "at t = 0");
+  BOOST_TEST(summary.quantities.count("v_g") == 0u);
+  BOOST_TEST(lines_of(directory.path / "series.csv").size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(results_are_shared_and_replaced) {
+  const TemporaryDirectory directory;
+  const fs::path one = directory.path / "one", two = directory.path / "two", other = directory.path / "other";
+  make_directories(one);
+  make_directories(other);
+  write_results(one, pore_case(), outcome_with(random_checkpoint()), {});
+  share_results(one, two);
+  BOOST_TEST(entries_in(two) == entries_in(one));
+  BOOST_TEST(content_of(two / "summary.json") == content_of(one / "summary.json"));
+  BOOST_TEST(fs::hard_link_count(two / "summary.json") == 2u);
+  share_results(one, two);
+  BOOST_TEST(entries_in(two) == entries_in(one));
+
+  // Another run with fewer profiles leaves nothing of the first.
+  Checkpoint shorter = random_checkpoint();
+  shorter.profiles.pop_back();
+  write_results(other, pore_case(), outcome_with(shorter), {});
+  const auto keep = two / "notes.txt";
+  std::ofstream(keep) << "mine";
+  share_results(other, two);
+  BOOST_TEST(!fs::exists(two / "membrane_0001.vtp"));
+  BOOST_TEST(fs::exists(keep));
+  BOOST_TEST(content_of(two / "series.csv") == content_of(other / "series.csv"));
+  for (const char *left : {".writing-summary.json.123", ".writing-summary.json", ".writing-checkpoint.json"})
+    std::ofstream(two / left) << "{";
+  remove_results(two);
+  BOOST_TEST(entries_in(two) == 1u);
+}
