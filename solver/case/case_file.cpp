@@ -4,6 +4,7 @@
 #include "case/case_checks.hpp"
 #include "case/case_reader.hpp"
 #include "case/key.hpp"
+#include "case/physical.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,4 @@
 #include "case/physical.hpp"
-#include "case/case.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -3,13 +3,11 @@
 // scales that turn results back.
 //   length R_t, velocity Q/(pi R_t^2), time pi R_t^3/Q, pressure mu Q/(pi R_t^3), tension G
 // Everything is held in SI units. Throws nothing.
-#include "case/units.hpp"
+#include "case/case.hpp"
 #include <string>
 #include <vector>
 
 namespace capsule {
-
-struct Case;
 
 // A dimensionless key that physical ones determine, its value, and the one of them that a complaint names.
 struct Derived {

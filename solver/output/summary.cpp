@@ -2,6 +2,7 @@
 #include "base/atomic_file.hpp"
 #include "base/json_file.hpp"
 #include "case/key.hpp"
+#include "case/physical.hpp"
 #include "observe/columns.hpp"
 #include "output/tables.hpp"
 #include "scene/resolution.hpp"

@@ -2,6 +2,7 @@
 #include "base/atomic_file.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
+#include "case/physical.hpp"
 #include "observe/columns.hpp"
 #include <algorithm>
 #include <cerrno>

@@ -1,0 +1,72 @@
+#pragma once
+// What a case says, a struct for each section of a case file. All lengths are scaled with R_t, velocities with
+// Q/(pi R_t^2), times with pi R_t^3/Q, pressures with mu Q/(pi R_t^3), tensions with G, bending moments with G R_t.
+// The keys of a case file are the names below, joined by dots: "pore.exit_x".
+#include "case/units.hpp"
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace capsule {
+
+enum class PoreShape { hyperbolic, tube, none };
+enum class LawName { neo_hookean, skalak };
+enum class FlowType { pore, extension };
+enum class Numerics { standard, paper }; // the best preset we have; section 3 of the paper
+enum class Scheme { bdf, euler, rk4 };
+
+struct PoreSpec {
+  PoreShape shape = PoreShape::hyperbolic;
+  double opening_angle_deg = 78.5; // alpha, eq. 1
+  double exit_x = 15;              // L_P
+  double entrance_distance = 30;   // L_E
+};
+
+struct CapsuleSpec {
+  double radius = 0;       // R_eq, of the sphere with the same volume
+  double aspect_ratio = 1; // A/B
+  double start_x = -4;
+};
+
+struct MembraneSpec {
+  LawName law = LawName::neo_hookean;
+  double dilatation = 1;       // C of Skalak's law, eq. 5
+  double bending_ratio = 1e-5; // delta
+};
+
+struct FlowSpec {
+  FlowType type = FlowType::pore;
+  double capillary_number = 0; // epsilon
+  double viscosity_ratio = 1;  // lambda
+};
+
+// 0: chosen from the accuracy asked for (standard preset) or the paper's value (paper preset).
+struct MeshSpec {
+  int membrane = 0; // N_M
+  int wall = 0;     // N_B
+  int exit = 0;     // N_P
+};
+
+struct TimeSpec {
+  Scheme scheme = Scheme::bdf;
+  double step = 0;      // of an explicit scheme
+  double tolerance = 0; // absolute error of the nodes' positions in one step, in units of R_t; 0: chosen
+};
+
+struct UntilSpec {
+  std::optional<double> x_g;
+  std::optional<double> time;
+};
+
+// What the dimensionless values above may follow from, physical.hpp.
+struct PhysicalSpec {
+  Quantity tube_radius, viscosity, flow_rate, pressure, pore_length;
+  Quantity shear_modulus, young_modulus, bending_modulus, capsule_radius, internal_viscosity;
+};
+
+struct OutputSpec {
+  std::vector<double> profiles_at_x_g;
+  std::vector<double> profiles_at_time;
+};
+
+} // namespace capsule
