@@ -3,6 +3,7 @@
 #include "case/key.hpp"
 #include "geometry/node_density.hpp"
 #include "geometry/quadrature.hpp"
+#include "steady/growth_rates.hpp"
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -516,7 +517,7 @@ SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
   const SteadySystem &system = *state.system;
   Portrait portrait = portray(state);
   SteadyRecord record{portrait.row, std::move(portrait.profile), {}};
-  const std::complex<double> slowest = system.growth_rates(state.unknowns, viscosity_ratio)[0];
+  const std::complex<double> slowest = growth_rates(system, state.unknowns, viscosity_ratio)[0];
   record.rates = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
   if (system.scene().flow.type == FlowType::pore)
     record.rates["growth_per_length"] = slowest.real() / record.row.v_g;

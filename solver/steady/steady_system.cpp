@@ -3,9 +3,7 @@
 #include "motion/dynamics.hpp"
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
-#include <vector>
 
 namespace capsule {
 namespace {
@@ -177,106 +175,6 @@ SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) cons
   jacobian.col(2 * n + 1) = equations(unit, Vector::Zero(2 * n)) - equations(none, Vector::Zero(2 * n));
   jacobian.col(2 * n).head(n).setConstant(-1);
   return result;
-}
-
-// What v' of linear_motion.hpp is multiplied with; the identity for equal viscosities.
-Matrix SteadySystem::velocity_operator(const Linearisation &linear, double viscosity_ratio) const {
-  const Eigen::Index n2 = 2 * nodes();
-  return (1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio - 1) * linear.double_layer;
-}
-
-Matrix SteadySystem::small_motion(const Vector &unknowns, double viscosity_ratio) const {
-  return small_motion(linearise(unknowns), viscosity_ratio);
-}
-
-Matrix SteadySystem::small_motion(const Linearisation &linear, double viscosity_ratio) const {
-  const Eigen::Index n2 = 2 * nodes();
-  return velocity_operator(linear, viscosity_ratio)
-      .partialPivLu()
-      .solve(linear.jacobian.topLeftCorner(n2, n2));
-}
-
-namespace {
-
-bool grows_more(const std::complex<double> &a, const std::complex<double> &b) {
-  return a.real() > b.real();
-}
-
-} // namespace
-
-Eigen::VectorXcd SteadySystem::all_growth_rates(const Vector &unknowns, double viscosity_ratio) const {
-  return all_growth_rates(linearise(unknowns), viscosity_ratio);
-}
-
-Eigen::VectorXcd SteadySystem::all_growth_rates(const Linearisation &linear, double viscosity_ratio) const {
-  const Eigen::Index n2 = 2 * nodes();
-  const Matrix constraints = linear.jacobian.bottomLeftCorner(2, n2);
-  const Matrix border = linear.jacobian.topRightCorner(n2, 2);
-  Matrix motion = small_motion(linear, viscosity_ratio);
-  motion -= border * (constraints * border).partialPivLu().solve(constraints * motion);
-  const Matrix directions = Eigen::HouseholderQR<Matrix>(constraints.transpose()).householderQ();
-  const auto allowed = directions.rightCols(n2 - 2);
-  Eigen::VectorXcd rates =
-      Eigen::EigenSolver<Matrix>(allowed.transpose() * motion * allowed, false).eigenvalues();
-  std::sort(rates.begin(), rates.end(), grows_more);
-  return rates;
-}
-
-// Arnoldi's method on the inverse: the displacement that keeps centre and volume and whose rate, seen from the
-// centre, is given. The bordered matrix of Newton's method is what to solve with; its border, along which
-// centre and volume are corrected, belongs to the velocity and goes with it to the other viscosity ratio. What
-// grows is alone on its side of the inverse's spectrum and shows early, but perhaps not what grows fastest.
-Eigen::VectorXcd SteadySystem::growth_rates(const Vector &unknowns, double viscosity_ratio) const {
-  constexpr Eigen::Index most_vectors = 80;
-  constexpr double converged = 1e-8, visible = 0.1; // relative residuals of an eigenvalue
-  const Eigen::Index n2 = 2 * nodes();
-  const Linearisation linear = linearise(unknowns);
-  const Matrix on_velocity = velocity_operator(linear, viscosity_ratio);
-  Matrix bordered = linear.jacobian;
-  bordered.topRightCorner(n2, 2) = on_velocity * linear.jacobian.topRightCorner(n2, 2);
-  const Eigen::PartialPivLU<Matrix> factors(bordered);
-  const auto inverse = [&](const Vector &rate) -> Vector {
-    Vector right = Vector::Zero(n2 + 2);
-    right.head(n2) = on_velocity * rate;
-    return factors.solve(right).head(n2);
-  };
-  const Eigen::Index m = std::min(most_vectors, n2 - 2);
-  Matrix basis(n2, m + 1);
-  Matrix hessenberg = Matrix::Zero(m + 1, m);
-  const auto zeta = membrane_.basis.nodes.array();
-  Vector any(n2); // with a share of every wave
-  any << (1 / (1.25 - zeta.cos())), (zeta.sin() / (1.25 - (zeta + 0.3).cos()));
-  basis.col(0) = inverse(any).normalized();
-  Eigen::Index size = 0;
-  while (size < m) {
-    Vector next = inverse(basis.col(size));
-    const double length = next.norm();
-    for (int again = 0; again < 2; ++again) {
-      const Vector parts = basis.leftCols(size + 1).transpose() * next;
-      next -= basis.leftCols(size + 1) * parts;
-      hessenberg.col(size).head(size + 1) += parts;
-    }
-    const double rest = next.norm();
-    hessenberg(size + 1, size) = rest;
-    ++size;
-    if (rest < 1e-14 * length) // the space is invariant: all its eigenvalues are exact
-      break;
-    basis.col(size) = next / rest;
-  }
-  const Eigen::EigenSolver<Matrix> eigen(hessenberg.topLeftCorner(size, size));
-  std::vector<std::complex<double>> rates;
-  for (Eigen::Index k = 0; k < size; ++k) {
-    const std::complex<double> value = eigen.eigenvalues()[k];
-    const double residual = hessenberg(size, size - 1) * std::abs(eigen.eigenvectors()(size - 1, k));
-    if (value.real() > 0 && residual < visible * std::abs(value))
-      return all_growth_rates(linear, viscosity_ratio);
-    if (residual < converged * std::abs(value))
-      rates.push_back(1.0 / value);
-  }
-  if (rates.empty())
-    throw NumericsFailure("unresolved", "the growth rates do not converge", "try a finer mesh.membrane");
-  std::sort(rates.begin(), rates.end(), grows_more);
-  return Eigen::Map<Eigen::VectorXcd>(rates.data(), std::ssize(rates));
 }
 
 FlowState SteadySystem::flow(const Vector &position) const {

@@ -44,21 +44,9 @@ public:
   };
   Linearisation linearise(const Vector &unknowns) const;
 
-  // d velocity/d position of the nodes at a steady state, 2N x 2N, for any viscosity ratio.
-  Matrix small_motion(const Vector &unknowns, double viscosity_ratio) const;
-  // Growth rates of all small motions, 2N - 2, per unit of time and largest real part first; without displacement
-  // along the axis and change of volume.
-  Eigen::VectorXcd all_growth_rates(const Vector &unknowns, double viscosity_ratio) const;
-  // The same; where nothing grows, only those of smallest modulus (30 or more of them), to 1e-8 relative. Throws
-  // NumericsFailure("unresolved") if none converges.
-  Eigen::VectorXcd growth_rates(const Vector &unknowns, double viscosity_ratio) const;
-
   FlowState flow(const Vector &position) const; // with both pressure drops
 
 private:
-  Matrix small_motion(const Linearisation &linear, double viscosity_ratio) const;
-  Eigen::VectorXcd all_growth_rates(const Linearisation &linear, double viscosity_ratio) const;
-  Matrix velocity_operator(const Linearisation &linear, double viscosity_ratio) const;
   void build_flow();
   Vector equations(const Vector &unknowns, const Vector &velocity) const;
   Eigen::Matrix<double, 2, Eigen::Dynamic> constraint_slopes(const Vector &position) const;

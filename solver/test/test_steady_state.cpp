@@ -1,6 +1,7 @@
 // Steady shapes and small motions about them: exact limits, and the motion's own equations differentiated.
 #include "base/failure.hpp"
 #include "motion/dynamics.hpp"
+#include "steady/growth_rates.hpp"
 #include "steady/steady_state.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -107,7 +108,7 @@ BOOST_AUTO_TEST_CASE(linear_motion_is_the_derivative_of_the_motion) {
     constexpr double h = 1e-4;
     const auto at = [&](double step) { return dynamics.flow(position + step * h * direction).velocity; };
     const Vector differences = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
-    const Vector exact = state.system->small_motion(state.unknowns, lambda) * direction;
+    const Vector exact = small_motion(*state.system, state.unknowns, lambda) * direction;
     BOOST_TEST((exact - differences).cwiseAbs().maxCoeff() < 1e-6 * differences.cwiseAbs().maxCoeff());
   }
 }
@@ -121,7 +122,7 @@ BOOST_AUTO_TEST_CASE(displacement_along_the_axis_of_an_extension) {
   const Eigen::Index n = state.system->nodes();
   Vector direction = Vector::Zero(2 * n);
   direction.head(n).setOnes();
-  const Vector change = state.system->small_motion(state.unknowns, 1) * direction;
+  const Vector change = small_motion(*state.system, state.unknowns, 1) * direction;
   BOOST_TEST((change - direction).cwiseAbs().maxCoeff() < 1e-6);
 }
 
@@ -161,8 +162,8 @@ BOOST_AUTO_TEST_CASE(growth_rates_are_eigenvalues) {
     physics.mesh.membrane = nodes;
     const SteadyState state = on_mesh(physics, nodes, find_steady(physics, {}, {}));
     for (const double lambda : {1.0, 5.0}) {
-      const Eigen::VectorXcd all = state.system->all_growth_rates(state.unknowns, lambda);
-      const Eigen::VectorXcd rates = state.system->growth_rates(state.unknowns, lambda);
+      const Eigen::VectorXcd all = all_growth_rates(*state.system, state.unknowns, lambda);
+      const Eigen::VectorXcd rates = growth_rates(*state.system, state.unknowns, lambda);
       BOOST_TEST(all.size() == 2 * nodes - 2);
       BOOST_TEST(rates.size() >= 30);
       BOOST_TEST(rates.size() < all.size());
@@ -180,13 +181,13 @@ BOOST_AUTO_TEST_CASE(fast_buckles_are_found) {
   physics.capsule.aspect_ratio = 0.28;
   physics.mesh.membrane = 80;
   const SteadyState state = on_mesh(physics, 80, find_steady(physics, {}, {}));
-  BOOST_TEST(state.system->growth_rates(state.unknowns, 1)[0].real() < 0);
+  BOOST_TEST(growth_rates(*state.system, state.unknowns, 1)[0].real() < 0);
   physics.membrane.law = LawName::neo_hookean;
   physics.membrane.bending_ratio = 1e-6;
   SteadySystem soft = *state.system;
   soft.take(physics);
-  const Eigen::VectorXcd rates = soft.growth_rates(state.unknowns, 1);
-  const Matrix motion = soft.small_motion(state.unknowns, 1);
+  const Eigen::VectorXcd rates = growth_rates(soft, state.unknowns, 1);
+  const Matrix motion = small_motion(soft, state.unknowns, 1);
   const Eigen::VectorXcd all = Eigen::EigenSolver<Matrix>(motion, false).eigenvalues();
   const double fastest = all.real().maxCoeff();
   BOOST_TEST(fastest > 100);

@@ -5,6 +5,7 @@
 #include "study.hpp"
 #include "compare/comparison.hpp"
 #include "motion/dynamics.hpp"
+#include "steady/growth_rates.hpp"
 #include "steady/steady_state.hpp"
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -76,7 +77,7 @@ class SmallMotions {
 public:
   SmallMotions(const SteadyState &state, double viscosity_ratio)
       : state_(state), gauge_(state.system->scene(), state.system->membrane()),
-        eigen_(state.system->small_motion(state.unknowns, viscosity_ratio)),
+        eigen_(small_motion(*state.system, state.unknowns, viscosity_ratio)),
         inverse_(eigen_.eigenvectors().inverse()) {}
 
   double speed() const { return state_.unknowns[2L * nodes]; }
@@ -133,7 +134,7 @@ std::string row_text(const Row &row) {
   using enum SmallMotions::Which;
   const Case physics = case_of(row);
   const SteadyState state = on_mesh(physics, nodes, find_steady(physics, {}, {}));
-  const double rate = state.system->growth_rates(state.unknowns, row.viscosity_ratio)[0].real();
+  const double rate = growth_rates(*state.system, state.unknowns, row.viscosity_ratio)[0].real();
   const SmallMotions motions(state, row.viscosity_ratio);
 
   const Checkpoint before = reach(physics, long_tube, from_x_g, {});
@@ -177,7 +178,7 @@ std::string rates_text() {
   std::string text;
   for (int k = 0; k <= 16; ++k) {
     const double viscosity_ratio = std::pow(10, -2 + 0.25 * k);
-    const double rate = state.system->growth_rates(state.unknowns, viscosity_ratio)[0].real();
+    const double rate = growth_rates(*state.system, state.unknowns, viscosity_ratio)[0].real();
     text += fmt::format("{:.6g},{:.6f},{:.6f}\n", viscosity_ratio, rate, -state.unknowns[2L * nodes] / rate);
   }
   return text;

@@ -2,6 +2,7 @@
 // from point to neighbouring point.
 #include "study.hpp"
 #include "base/failure.hpp"
+#include "steady/growth_rates.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,7 @@ bool go(const Case &from, double capillary_number, SteadyState &state, int halvi
   state.system->take(to);
   try {
     const Vector found = solve_steady(*state.system, state.unknowns, tolerance);
-    if (state.system->growth_rates(found, 1)[0].real() < 0) {
+    if (growth_rates(*state.system, found, 1)[0].real() < 0) {
       state.unknowns = found;
       return true;
     }
@@ -69,7 +70,7 @@ bool go(const Case &from, double capillary_number, SteadyState &state, int halvi
 bool begin_again(const Case &physics, SteadyState &state) {
   try {
     SteadyState found = on_mesh(physics, nodes, find_steady(physics, {}, {}));
-    if (found.system->growth_rates(found.unknowns, 1)[0].real() >= 0)
+    if (growth_rates(*found.system, found.unknowns, 1)[0].real() >= 0)
       return false;
     state = std::move(found);
     return true;

@@ -1,0 +1,110 @@
+#include "steady/growth_rates.hpp"
+#include "base/failure.hpp"
+#include <algorithm>
+#include <complex>
+#include <vector>
+
+namespace capsule {
+namespace {
+
+// The matrix in front of v' in (8.3); the identity for equal viscosities.
+Matrix velocity_operator(const SteadySystem::Linearisation &linear, double viscosity_ratio) {
+  const Eigen::Index n2 = linear.double_layer.rows();
+  return (1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio - 1) * linear.double_layer;
+}
+
+Matrix small_motion(const SteadySystem::Linearisation &linear, double viscosity_ratio) {
+  const Eigen::Index n2 = linear.double_layer.rows();
+  return velocity_operator(linear, viscosity_ratio)
+      .partialPivLu()
+      .solve(linear.jacobian.topLeftCorner(n2, n2));
+}
+
+bool grows_more(const std::complex<double> &a, const std::complex<double> &b) {
+  return a.real() > b.real();
+}
+
+Eigen::VectorXcd all_growth_rates(const SteadySystem::Linearisation &linear, double viscosity_ratio) {
+  const Eigen::Index n2 = linear.double_layer.rows();
+  const Matrix constraints = linear.jacobian.bottomLeftCorner(2, n2);
+  const Matrix border = linear.jacobian.topRightCorner(n2, 2);
+  Matrix motion = small_motion(linear, viscosity_ratio);
+  motion -= border * (constraints * border).partialPivLu().solve(constraints * motion);
+  const Matrix directions = Eigen::HouseholderQR<Matrix>(constraints.transpose()).householderQ();
+  const auto allowed = directions.rightCols(n2 - 2);
+  Eigen::VectorXcd rates =
+      Eigen::EigenSolver<Matrix>(allowed.transpose() * motion * allowed, false).eigenvalues();
+  std::sort(rates.begin(), rates.end(), grows_more);
+  return rates;
+}
+
+} // namespace
+
+Matrix small_motion(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio) {
+  return small_motion(system.linearise(unknowns), viscosity_ratio);
+}
+
+Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unknowns,
+                                  double viscosity_ratio) {
+  return all_growth_rates(system.linearise(unknowns), viscosity_ratio);
+}
+
+// Arnoldi's method on the inverse of the motion. The inverse maps a rate of displacement to the displacement that
+// keeps centre and volume and has this rate, seen from the centre. Newton's bordered matrix solves for it; its border,
+// along which centre and volume are corrected, is a velocity and is multiplied by the velocity's operator for the other
+// viscosity ratio. A growing motion is alone on its side of the inverse's spectrum and shows early, but it need not
+// be the one that grows fastest: then all rates are computed.
+Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio) {
+  constexpr Eigen::Index most_vectors = 80;
+  constexpr double converged = 1e-8, visible = 0.1; // relative residuals of an eigenvalue
+  const Eigen::Index n2 = 2 * system.nodes();
+  const SteadySystem::Linearisation linear = system.linearise(unknowns);
+  const Matrix on_velocity = velocity_operator(linear, viscosity_ratio);
+  Matrix bordered = linear.jacobian;
+  bordered.topRightCorner(n2, 2) = on_velocity * linear.jacobian.topRightCorner(n2, 2);
+  const Eigen::PartialPivLU<Matrix> factors(bordered);
+  const auto inverse = [&](const Vector &rate) -> Vector {
+    Vector right = Vector::Zero(n2 + 2);
+    right.head(n2) = on_velocity * rate;
+    return factors.solve(right).head(n2);
+  };
+  const Eigen::Index m = std::min(most_vectors, n2 - 2);
+  Matrix basis(n2, m + 1);
+  Matrix hessenberg = Matrix::Zero(m + 1, m);
+  const auto zeta = system.membrane().basis.nodes.array();
+  Vector start(n2); // contains every wave
+  start << (1 / (1.25 - zeta.cos())), (zeta.sin() / (1.25 - (zeta + 0.3).cos()));
+  basis.col(0) = inverse(start).normalized();
+  Eigen::Index size = 0;
+  while (size < m) {
+    Vector next = inverse(basis.col(size));
+    const double length = next.norm();
+    for (int again = 0; again < 2; ++again) {
+      const Vector parts = basis.leftCols(size + 1).transpose() * next;
+      next -= basis.leftCols(size + 1) * parts;
+      hessenberg.col(size).head(size + 1) += parts;
+    }
+    const double rest = next.norm();
+    hessenberg(size + 1, size) = rest;
+    ++size;
+    if (rest < 1e-14 * length) // the space is invariant: all its eigenvalues are exact
+      break;
+    basis.col(size) = next / rest;
+  }
+  const Eigen::EigenSolver<Matrix> eigen(hessenberg.topLeftCorner(size, size));
+  std::vector<std::complex<double>> rates;
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const std::complex<double> value = eigen.eigenvalues()[k];
+    const double residual = hessenberg(size, size - 1) * std::abs(eigen.eigenvectors()(size - 1, k));
+    if (value.real() > 0 && residual < visible * std::abs(value))
+      return all_growth_rates(linear, viscosity_ratio);
+    if (residual < converged * std::abs(value))
+      rates.push_back(1.0 / value);
+  }
+  if (rates.empty())
+    throw NumericsFailure("unresolved", "the growth rates do not converge", "try a finer mesh.membrane");
+  std::sort(rates.begin(), rates.end(), grows_more);
+  return Eigen::Map<Eigen::VectorXcd>(rates.data(), std::ssize(rates));
+}
+
+} // namespace capsule
