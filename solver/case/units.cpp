@@ -2,6 +2,7 @@
 #include "base/text.hpp"
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -14,33 +15,47 @@
 namespace capsule {
 namespace {
 
-// In SI units 10^decimal 60^sixty.
+// In SI units factor 10^decimal 60^sixty. Decimal units have the factor 1 and lose no digit.
 struct Unit {
   std::string_view symbol;
   int decimal, sixty;
   Dimension of;
+  double factor = 1;
 };
-constexpr std::array<Unit, 14> units = {{{"m", 0, 0, dimension::length},
-                                         {"micron", -6, 0, dimension::length},
-                                         {"g", -3, 0, {0, 1, 0}},
-                                         {"s", 0, 0, dimension::time},
-                                         {"min", 0, 1, dimension::time},
-                                         {"h", 0, 2, dimension::time},
-                                         {"l", -3, 0, {3, 0, 0}},
-                                         {"L", -3, 0, {3, 0, 0}},
-                                         {"N", 0, 0, {1, 1, -2}},
-                                         {"dyn", -5, 0, {1, 1, -2}},
-                                         {"Pa", 0, 0, dimension::pressure},
-                                         {"bar", 5, 0, dimension::pressure},
-                                         {"P", -1, 0, dimension::viscosity},
-                                         {"J", 0, 0, dimension::energy}}};
+constexpr std::array units = {Unit{"m", 0, 0, dimension::length},
+                              Unit{"micron", -6, 0, dimension::length},
+                              Unit{"g", -3, 0, {0, 1, 0}},
+                              Unit{"s", 0, 0, dimension::time},
+                              Unit{"sec", 0, 0, dimension::time},
+                              Unit{"min", 0, 1, dimension::time},
+                              Unit{"minute", 0, 1, dimension::time},
+                              Unit{"h", 0, 2, dimension::time},
+                              Unit{"hr", 0, 2, dimension::time},
+                              Unit{"hour", 0, 2, dimension::time},
+                              Unit{"l", -3, 0, {3, 0, 0}},
+                              Unit{"L", -3, 0, {3, 0, 0}},
+                              Unit{"cc", -6, 0, {3, 0, 0}},
+                              Unit{"N", 0, 0, {1, 1, -2}},
+                              Unit{"dyn", -5, 0, {1, 1, -2}},
+                              Unit{"Pa", 0, 0, dimension::pressure},
+                              Unit{"bar", 5, 0, dimension::pressure},
+                              Unit{"atm", 0, 0, dimension::pressure, 101325},
+                              Unit{"psi", 0, 0, dimension::pressure, 6894.757293168},
+                              Unit{"mmHg", 0, 0, dimension::pressure, 133.322387415},
+                              Unit{"Torr", 0, 0, dimension::pressure, 101325.0 / 760},
+                              Unit{"mmH2O", 0, 0, dimension::pressure, 9.80665},
+                              Unit{"cmH2O", 0, 0, dimension::pressure, 98.0665},
+                              Unit{"P", -1, 0, dimension::viscosity},
+                              Unit{"J", 0, 0, dimension::energy},
+                              Unit{"erg", -7, 0, dimension::energy},
+                              Unit{"kT", -23, 0, dimension::energy, 1.380649 * 298.15}}; // at 25 C
 
 // Beginning with those that a mistyped one most likely stands for.
 struct Prefix {
   std::string_view symbol;
   int decimal;
 };
-constexpr std::array<Prefix, 11> prefixes = {{{"", 0},
+constexpr std::array<Prefix, 14> prefixes = {{{"", 0},
                                               {"u", -6},
                                               {"m", -3},
                                               {"n", -9},
@@ -48,6 +63,9 @@ constexpr std::array<Prefix, 11> prefixes = {{{"", 0},
                                               {"f", -15},
                                               {"a", -18},
                                               {"c", -2},
+                                              {"d", -1},
+                                              {"h", 2},
+                                              {"z", -21},
                                               {"k", 3},
                                               {"M", 6},
                                               {"G", 9}}};
@@ -64,9 +82,13 @@ const std::vector<Kind> &kinds() {
       {dimension::length, "a length", "m", "5 um", {"µm", "micron", "nm", "mm", "cm", "m"}},
       {dimension::viscosity, "a viscosity", "Pa.s", "1 mPa.s", {"mPa s", "Pa.s", "cP", "P", "g/(cm.s)"}},
       {dimension::flow_rate, "a flow rate", "m3/s", "0.1 nl/s", {"pl/s", "ul/min", "ml/h", "um^3/s", "m3/s"}},
-      {dimension::pressure, "a pressure", "Pa", "20 Pa", {"kPa", "mbar", "N/m2", "dyn/cm2"}},
+      {dimension::pressure,
+       "a pressure",
+       "Pa",
+       "20 Pa",
+       {"kPa", "mbar", "mmHg", "cmH2O", "psi", "N/m2", "dyn/cm2"}},
       {dimension::tension, "a tension", "N/m", "0.02 mN/m", {"uN/m", "pN/um", "dyn/cm", "N/m", "mJ/m2"}},
-      {dimension::energy, "an energy", "J", "0.5 aJ", {"fJ", "J", "pN.um", "N.m"}},
+      {dimension::energy, "an energy", "J", "0.5 aJ", {"fJ", "J", "kT", "erg", "pN.um", "N.m"}},
       {dimension::velocity, "a velocity", "m/s", "1 mm/s", {"um/s", "m/s"}},
       {dimension::time, "a time", "s", "1 s", {"ms", "min", "h"}}};
   return table;
@@ -82,7 +104,7 @@ std::optional<Unit> find_unit(std::string_view name) {
   for (const Prefix &prefix : prefixes)
     for (const Unit &unit : units)
       if (name.starts_with(prefix.symbol) && name.substr(prefix.symbol.size()) == unit.symbol)
-        return Unit{name, prefix.decimal + unit.decimal, unit.sixty, unit.of};
+        return Unit{name, prefix.decimal + unit.decimal, unit.sixty, unit.of, unit.factor};
   return std::nullopt;
 }
 
@@ -126,33 +148,48 @@ struct UnitReader {
     rest.remove_prefix(here ? 1 : 0);
     return here;
   }
+  bool take_per() {
+    constexpr std::string_view per = "per ";
+    const bool here = rest.starts_with(per);
+    rest.remove_prefix(here ? per.size() : 0);
+    return here;
+  }
   void skip_spaces() { rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size())); }
 
-  // Whether a power of a unit stands here.
+  // Whether a power of a unit stands here. The symbol may end in a digit's place only where such a unit is known: "cmH2O".
   bool power() {
     const std::string_view word = this->word();
-    const std::size_t letters = std::min(word.find_first_of(exponent_begins), word.size());
-    const std::optional<Unit> unit = find_unit(word.substr(0, letters));
-    int exponent = 1;
-    if (letters < word.size()) {
-      const std::size_t sign = word[letters] == '^' ? 1 : 0;
-      const auto [last, error] =
-          std::from_chars(word.data() + letters + sign, word.data() + word.size(), exponent);
-      constexpr int largest = 9;
-      if (error != std::errc() || last != word.data() + word.size() || exponent < -largest ||
-          exponent > largest)
-        return false;
+    for (std::size_t letters = word.size(); letters > 0; --letters) {
+      const std::optional<Unit> unit = find_unit(word.substr(0, letters));
+      const std::optional<int> exponent = read_exponent(word.substr(letters));
+      if (unit && exponent) {
+        multiply(*unit, side * *exponent);
+        rest.remove_prefix(word.size());
+        return true;
+      }
     }
-    if (!unit)
-      return false;
-    exponent *= side;
-    product.decimal += exponent * unit->decimal;
-    product.sixty += exponent * unit->sixty;
-    product.of.length += exponent * unit->of.length;
-    product.of.mass += exponent * unit->of.mass;
-    product.of.time += exponent * unit->of.time;
-    rest.remove_prefix(word.size());
-    return true;
+    return false;
+  }
+
+  static std::optional<int> read_exponent(std::string_view text) {
+    constexpr int largest = 9;
+    if (text.empty())
+      return 1;
+    if (text.starts_with('^'))
+      text.remove_prefix(1);
+    int exponent = 0;
+    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), exponent);
+    const bool whole = error == std::errc() && last == text.data() + text.size();
+    return whole && exponent >= -largest && exponent <= largest ? std::optional(exponent) : std::nullopt;
+  }
+
+  void multiply(const Unit &unit, int exponent) {
+    product.decimal += exponent * unit.decimal;
+    product.sixty += exponent * unit.sixty;
+    product.factor *= std::pow(unit.factor, exponent);
+    product.of.length += exponent * unit.of.length;
+    product.of.mass += exponent * unit.of.mass;
+    product.of.time += exponent * unit.of.time;
   }
 
   // Whether all of it is units; if not, the rest begins with what is none.
@@ -164,7 +201,7 @@ struct UnitReader {
       skip_spaces();
       if (rest.empty())
         return true;
-      if (take('/')) {
+      if (take('/') || take_per()) {
         side = -1;
         skip_spaces();
         if (rest.starts_with('(') && rest.ends_with(')'))
@@ -176,6 +213,29 @@ struct UnitReader {
 
   std::string_view word() const { return rest.substr(0, rest.find_first_of(" ./()")); }
 };
+
+char lower(char c) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+// Whether a suggested text may stand for a typed one: a word's first letter may be its prefix, and a suggestion must not
+// change the magnitude. Capitals are mixed up, and y is typed for the Greek letter.
+bool same_first_letters(std::string_view typed, std::string_view suggested) {
+  const auto first_letters = [](std::string_view text) {
+    std::string letters;
+    bool inside = false;
+    for (const char c : text) {
+      const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+      if (letter && !inside)
+        letters += lower(c) == 'y' ? 'u' : lower(c);
+      inside = letter;
+    }
+    return letters;
+  };
+  const std::string of_typed = first_letters(typed), of_suggested = first_letters(suggested);
+  // "mPas" lacks the dot of "mPa.s".
+  return of_suggested.starts_with(of_typed);
+}
 
 // The units that a text with a wrong word in it, in ASCII, most likely meant: usual ones, or others in the word's place.
 std::string nearest_units(const std::string &text, std::string_view wrong, const Dimension &wanted) {
@@ -189,24 +249,29 @@ std::string nearest_units(const std::string &text, std::string_view wrong, const
   for (const Prefix &prefix : prefixes)
     for (const Unit &unit : units) {
       const auto offset = static_cast<std::size_t>(wrong.data() - text.data());
-      std::string candidate = text;
-      candidate.replace(offset, letters, fmt::format("{}{}", prefix.symbol, unit.symbol));
-      UnitReader reader{candidate};
-      if (reader.units() && reader.product.of == wanted)
-        candidates.push_back(std::move(candidate));
+      for (const std::size_t replaced : {letters, wrong.size()}) { // without its exponent, or all of the word
+        std::string candidate = text;
+        candidate.replace(offset, replaced, fmt::format("{}{}", prefix.symbol, unit.symbol));
+        UnitReader reader{candidate};
+        if (reader.units() && reader.product.of == wanted)
+          candidates.push_back(std::move(candidate));
+      }
     }
+  std::erase_if(candidates,
+                [&](const std::string &candidate) { return !same_first_letters(text, candidate); });
   return nearest_word(text, candidates);
 }
 
-// number 10^decimal 60^sixty, the decimal part as if the digits had been typed so: 5 and -6 are the double 5e-6. Zero or
-// infinite where no double is near.
+// number factor 10^decimal 60^sixty, the decimal part as if the digits had been typed so: 5 and -6 are the double 5e-6.
+// Zero or infinite where no double is near.
 double scaled(double number, const Unit &unit) {
   const std::string text = number_text(number);
   const std::size_t e = text.find('e');
   const int exponent = unit.decimal + (e == std::string::npos ? 0 : std::stoi(text.substr(e + 1)));
   const double decimal = std::strtod(fmt::format("{}e{}", text.substr(0, e), exponent).c_str(), nullptr);
+  const double whole = decimal * unit.factor;
   const double sixties = std::pow(60, std::abs(unit.sixty));
-  return unit.sixty < 0 ? decimal / sixties : decimal * sixties;
+  return unit.sixty < 0 ? whole / sixties : whole * sixties;
 }
 
 std::string power_text(const char *symbol, int exponent) {

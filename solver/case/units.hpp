@@ -2,9 +2,10 @@
 // Quantities as an experimenter types them: "5 um", "1 mPa s", "0.1 µL/min", "3e-4 dyn/cm", "2 um^3.s^-1".
 //   quantity   a number, spaces or none, units
 //   units      powers joined by "." "*" "·" "×" or spaces; what stands behind a slash divides, in parentheses or not
-//   power      a unit with or without a prefix, and an exponent: "m3", "m^3", "m³", "s-1"
+//   power      a unit with or without a prefix, and an exponent: "m3", "m^3", "m³", "s-1"; "per" is a slash
 // Which of two readings of "a/b.c" was meant need not be asked: at most one has the dimension that is wanted.
-// Throws nothing. Decimal prefixes are exact: "5 um" is the double nearest to 5e-6.
+// Throws nothing. Decimal prefixes are exact: "5 um" is the double nearest to 5e-6. kT is meant at 25 C, mmHg and cmH2O are
+// the conventional ones.
 #include <string>
 #include <variant>
 
@@ -26,7 +27,7 @@ struct Quantity {
   std::string written = {}; // as it was typed; empty: computed
 };
 
-// Why a text is no quantity of a dimension, and what was probably meant, if anything is near.
+// Why a text is no quantity of a dimension, and what was probably meant, if anything of the same magnitude is near.
 struct NoQuantity {
   std::string why;
   std::string meant;

@@ -58,10 +58,49 @@ BOOST_AUTO_TEST_CASE(pressures_tensions_energies) {
        {"100 Pa", "0.1 kPa", "1 mbar", "1e-3 bar", "100 N/m2", "100 pN/um^2", "1000 dyn/cm2"})
     BOOST_TEST(si(text, dimension::pressure) == 100, text);
   for (const char *text : {"0.02 mN/m", "20 uN/m", "20 \u00b5N/m", "20 pN/um", "0.02 dyn/cm", "2e-5 N/m",
-                           "0.02 mJ/m2", "0.02 g/s2", "0.02 g.s^-2", "20 Pa.um"})
+                           "0.02 mJ/m2", "0.02 g/s2", "0.02 g.s^-2", "20 Pa.um", "0.02 zJ/nm2"})
     BOOST_TEST(si(text, dimension::tension) == 2e-5, text);
   for (const char *text : {"0.5 aJ", "0.5 pN.um", "5e-19 N.m", "5e-19 N m", "500 pN.nm"})
     BOOST_TEST(si(text, dimension::energy) == 5e-19, text);
+}
+
+// Units of the laboratory, by their definitions: the inch is 25.4 mm, the pound 0.45359237 kg, standard gravity
+// 9.80665 m/s2, conventional mercury 13595.1 kg/m3, and k 1.380649e-23 J/K.
+BOOST_AUTO_TEST_CASE(units_of_the_laboratory) {
+  const auto is = [](const std::string &text, const Dimension &of, double value) {
+    BOOST_TEST(si(text, of) == value, boost::test_tools::tolerance(1e-12));
+  };
+  is("1 hPa", dimension::pressure, 100);
+  is("3 mmHg", dimension::pressure, 3e-3 * 13595.1 * 9.80665);
+  is("2 cmH2O", dimension::pressure, 2 * 10 * 9.80665);
+  is("2 mmH2O", dimension::pressure, 2 * 9.80665);
+  is("2 psi", dimension::pressure, 2 * 0.45359237 * 9.80665 / (0.0254 * 0.0254));
+  is("0.5 atm", dimension::pressure, 50662.5);
+  is("760 Torr", dimension::pressure, 101325);
+  is("50 kT", dimension::energy, 50 * 1.380649e-23 * 298.15);
+  is("10 kT/nm2", dimension::tension, 10 * 1.380649e-23 * 298.15 * 1e18);
+  BOOST_TEST(si("2e-12 erg", dimension::energy) == 2e-19);
+  BOOST_TEST(si("200 zJ", dimension::energy) == 2e-19);
+  BOOST_TEST(si("1 erg/cm2", dimension::tension) == 1e-3);
+  BOOST_TEST(si("5 dm", dimension::length) == 0.5);
+  for (const char *text :
+       {"6 ul/min", "6 uL min^-1", "6 ul.min-1", "6 \u00b5L\u00b7min\u207b\u00b9", "6 \u00b5l min\u22121",
+        "6 ul per min", "6 ul/minute", "6e-3 cc/min", "6e-3 cc per min", "6 mm3/min", "360 ul/h", "360 ul/hr",
+        "360 ul per hour", "0.1 ul/sec"})
+    BOOST_TEST(si(text, dimension::flow_rate) == 1e-10, text);
+}
+
+// A suggestion that is another magnitude would be taken by a user in a hurry: whatever is mistyped, it keeps the first
+// letter, which may be the prefix.
+BOOST_AUTO_TEST_CASE(a_suggestion_keeps_the_magnitude) {
+  BOOST_TEST(refused("5 Gm3x/s", dimension::flow_rate).meant.empty());
+  BOOST_TEST(refused("5 inHg", dimension::pressure).meant.empty());
+  BOOST_TEST(refused("5 mmhg", dimension::pressure).meant == "5 mmHg");
+  BOOST_TEST(refused("5 cmH20", dimension::pressure).meant == "5 cmH2O");
+  BOOST_TEST(refused("5 qPa", dimension::pressure).meant.empty());
+  BOOST_TEST(refused("5 TPa", dimension::pressure).meant.empty());
+  BOOST_TEST(refused("5 El/s", dimension::flow_rate).meant.empty());
+  BOOST_TEST(refused("5 kt", dimension::energy).meant == "5 kT");
 }
 
 // "min" is no milli-inch, "mN" no metre-newton, "Pa" no peta-are.
@@ -118,7 +157,7 @@ BOOST_AUTO_TEST_CASE(what_was_meant) {
   BOOST_TEST(refused("5 s", dimension::length).meant.empty());
   BOOST_TEST(refused("1 mPas", dimension::viscosity).meant == "1 mPa.s");
   BOOST_TEST(refused("1 mpa.s", dimension::viscosity).meant == "1 mPa.s");
-  BOOST_TEST(refused("2.5e1 fl/sec", dimension::flow_rate).meant == "2.5e1 fl/s");
+  BOOST_TEST(refused("2.5e1 fl/sek", dimension::flow_rate).meant == "2.5e1 fl/sec");
   BOOST_TEST(refused("2 pN/ym", dimension::tension).meant == "2 pN/um");
   BOOST_TEST(refused("2 \u00b5n/m", dimension::tension).meant == "2 uN/m");
   BOOST_TEST(refused("2 " + std::string(10000, 'x'), dimension::length).meant.empty());
