@@ -1,5 +1,8 @@
 #include "steady_folds.hpp"
 #include "base/failure.hpp"
+#include "case/key_path.hpp"
+#include "steady/continuation.hpp"
+#include "steady/refinement.hpp"
 #include <cmath>
 #include <fmt/format.h>
 
@@ -10,7 +13,7 @@ constexpr double most_stretch = 8; // folds lie below
 constexpr int most_steps = 60;
 
 SteadyPoint point_at(const SteadyState &state, const Case &physics, double value) {
-  state.system->take(physics);
+  state.system->set_parameters(physics);
   const SteadyRecord record = record_steady(state, physics.flow.viscosity_ratio);
   return {value, record.row, record.rates.at("growth_rate"),
           std::abs(state.unknowns[state.unknowns.size() - 1])};
@@ -24,8 +27,7 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
   FoldSearch search;
   search.state = start;
   BranchPoint good{start.unknowns, 0};
-  Branch branch(*start.system, [&](double part) { return path.at(part); }, good,
-                Branch::upwards(*start.system),
+  Branch branch(*start.system, path, good, Branch::upwards(*start.system),
                 {.first = largest_step, .largest = largest_step, .tolerance = 1e-6});
   for (int step = 0; search.end.empty(); ++step) {
     if (step == most_steps) { // short steps: Newton's method has a hard time

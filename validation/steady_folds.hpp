@@ -1,6 +1,6 @@
 #pragma once
 // What the studies of steady states share: branches followed to their first fold on a mesh of the study's choice.
-#include "steady/steady_state.hpp"
+#include "steady/mesh_change.hpp"
 #include "study.hpp"
 #include <functional>
 

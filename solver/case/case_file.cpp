@@ -4,6 +4,7 @@
 #include "case/case_checks.hpp"
 #include "case/case_reader.hpp"
 #include "case/key.hpp"
+#include "case/key_path.hpp"
 #include "case/physical.hpp"
 #include <algorithm>
 #include <cmath>
@@ -99,7 +100,7 @@ struct Builder {
 
   void take_derived(const Derived &value) {
     const Key &key = *find_key(value.key);
-    const double stated = number_of(key, run.physics);
+    const double stated = *number(key, run.physics);
     if (auto complaint = set_value(key, value.value, run.physics))
       chosen.complain({value.from}, complaint->message, complaint->hint);
     if (chosen.given(value.key) && std::abs(stated / value.value - 1) > 1e-9)
@@ -115,10 +116,6 @@ struct Builder {
       if (std::holds_alternative<Measured>(key.field))
         names.push_back(key.name);
     return names;
-  }
-
-  static double number_of(const Key &key, const Case &physics) {
-    return std::get<Member<double>>(key.field).of(physics);
   }
 
   // Defaults that depend on other keys.

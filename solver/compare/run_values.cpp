@@ -2,6 +2,7 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/key.hpp"
+#include "case/key_path.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -50,8 +51,7 @@ bool has_value(const Case &physics, const Key &key, const std::string &text) {
 
 std::optional<double> key_value(const std::string &name, const Case &physics) {
   const Key *key = key_named(name);
-  const auto value = key != nullptr ? get_value(*key, physics) : std::nullopt;
-  return value ? to_number(value_text(*value)) : std::nullopt;
+  return key != nullptr ? number(*key, physics) : std::nullopt;
 }
 
 const Values &column(const Columns &columns, const std::string &name) {

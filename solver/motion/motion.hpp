@@ -55,6 +55,13 @@ struct Control {
   std::function<bool()> interrupted;                           // asked after each step
 };
 
+// Thrown where the caller has asked to stop.
+struct Interrupted {};
+inline void throw_if_interrupted(const Control &control) {
+  if (control.interrupted && control.interrupted())
+    throw Interrupted{};
+}
+
 Outcome march(const Case &physics, const Checkpoint &from, const Control &control);
 
 } // namespace capsule

@@ -2,6 +2,9 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/key.hpp"
+#include "case/key_path.hpp"
+#include "steady/continuation.hpp"
+#include "steady/refinement.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
 #include <array>
@@ -22,18 +25,17 @@ constexpr std::array numbers_of_a_steady_state{"flow.capillary_number", "capsule
                                                "capsule.aspect_ratio", "membrane.bending_ratio",
                                                "membrane.dilatation"};
 
-// The points of one branch as they are found.
+// What is recorded of a branch's points as they are found.
 class Record {
 public:
   Record(const KeyPath &path, double viscosity_ratio, const Control &control)
       : path_(path), viscosity_ratio_(viscosity_ratio), control_(control) {}
 
-  BranchRow look_at(const SteadyState &state, double part, bool profile) {
-    if (control_.interrupted && control_.interrupted())
-      throw Interrupted{};
-    state.system->take(path_.at(part));
+  BranchRow add(const SteadyState &state, double part, bool profile) {
+    throw_if_interrupted(control_);
+    state.system->set_parameters(path_.at(part));
     SteadyRecord record = record_steady(state, viscosity_ratio_);
-    record.row.time = path_.value(part); // a branch has no time: what varies takes its place
+    record.row.time = path_.value(part); // a branch has no time: the key's value takes its place
     record.profile.time = record.row.time;
     const BranchRow point{path_.value(part), record.row, record.rates.at("growth_rate")};
     latest_ = std::move(record);
@@ -43,7 +45,7 @@ public:
     return point;
   }
 
-  // Series and profile of the point that was looked at last, unless they are there.
+  // Series and profile of the latest point, unless they are kept already.
   void keep_latest() {
     if (latest_) {
       outcome.last.series.push_back(latest_->row);
@@ -58,42 +60,42 @@ private:
   KeyPath path_;
   double viscosity_ratio_;
   const Control &control_;
-  std::optional<SteadyRecord> latest_; // that is not kept yet
+  std::optional<SteadyRecord> latest_; // not kept yet
 };
 
-// One branch from the case's own value of the key on.
-class Walk {
+// Follows one branch from the case's own value of the key.
+class BranchFollower {
 public:
-  Walk(const Case &physics, const KeyPath &path, const Control &control)
-      : path_(path), record_(path, physics.flow.viscosity_ratio, control),
-        may_refine_(physics.mesh.membrane == 0) {}
+  BranchFollower(const Case &input, const KeyPath &path, const Control &control)
+      : path_(path), record_(path, input.flow.viscosity_ratio, control),
+        may_refine_(input.mesh.membrane == 0) {}
 
   void begin(const RefinedState &start) {
     outcome().error_estimate = start.error_estimate;
     state_ = start.state;
-    outcome().branch.push_back(record_.look_at(state_, 0, true));
-    branch_ = std::make_unique<Branch>(*state_.system, cases(), BranchPoint{state_.unknowns, 0},
+    outcome().branch.push_back(record_.add(state_, 0, true));
+    branch_ = std::make_unique<Branch>(*state_.system, path_, BranchPoint{state_.unknowns, 0},
                                        Branch::upwards(*state_.system), steps);
   }
 
-  // One point further; true at the end.
-  bool go_on() {
+  // To the next point; true at the end.
+  bool advance() {
     branch_->advance();
     if (branch_->turned() && !branch_->tangent_has_turned() &&
         refine_mesh(branch_->point_before(), branch_->tangent_before()))
       return false;
     if (branch_->turned())
-      outcome().folds.push_back(look_at(branch_->fold(), true));
+      outcome().folds.push_back(record(branch_->fold(), true));
     part_ = branch_->point().parameter;
     if (part_ >= 1 || part_ <= 0) {
-      outcome().branch.push_back(look_at(branch_->at_parameter(part_ >= 1 ? 1 : 0), true));
+      outcome().branch.push_back(record(branch_->at_parameter(part_ >= 1 ? 1 : 0), true));
       outcome().status = Status::reached;
       if (part_ <= 0)
         outcome().message = fmt::format("the branch turns back and does not reach {}", path_.text(1));
       return true;
     }
     const bool runs_away = state_.system->largest_stretch(branch_->point().unknowns) > runaway_stretch;
-    outcome().branch.push_back(look_at(branch_->point(), runs_away));
+    outcome().branch.push_back(record(branch_->point(), runs_away));
     if (runs_away) {
       outcome().status = Status::unbounded;
       outcome().message = fmt::format("stretched beyond {} at {}; the branch is not followed further",
@@ -109,27 +111,24 @@ public:
     return false;
   }
 
-  void end_here() { record_.keep_latest(); }
+  void keep_latest() { record_.keep_latest(); }
   Outcome &outcome() { return record_.outcome; }
   int nodes() const { return static_cast<int>(state_.system->nodes()); }
   std::string place() const { return path_.text(part_); }
 
 private:
-  Path cases() const {
-    return [path = path_](double part) { return path.at(part); };
-  }
-  BranchRow look_at(const BranchPoint &point, bool profile) {
+  BranchRow record(const BranchPoint &point, bool profile) {
     state_.unknowns = point.unknowns;
-    return record_.look_at(state_, point.parameter, profile);
+    return record_.add(state_, point.parameter, profile);
   }
-  // Goes on from a point on a finer mesh; false if there is none that leads on.
+  // Goes on from a point on a finer mesh; false if there is none, or the branch is not found on it.
   bool refine_mesh(const BranchPoint &point, const Vector &tangent) {
     const int more = finer_mesh(nodes());
     if (!may_refine_ || more > most_nodes_of_a_branch)
       return false;
     const SteadyState guess = moved_to_mesh(path_.at(point.parameter), more, {state_.system, point.unknowns});
     try {
-      branch_ = std::make_unique<Branch>(*guess.system, cases(), BranchPoint{guess.unknowns, point.parameter},
+      branch_ = std::make_unique<Branch>(*guess.system, path_, BranchPoint{guess.unknowns, point.parameter},
                                          moved_to(*guess.system, *state_.system, tangent), steps);
       state_ = {guess.system, branch_->point().unknowns};
     } catch (const NumericsFailure &) {
@@ -148,7 +147,7 @@ private:
 
 } // namespace
 
-void require_branch(const Case &physics, const std::string &key, double to) {
+void require_branch(const Case &input, const std::string &key, double to) {
   if (std::ranges::find(numbers_of_a_steady_state, key) == numbers_of_a_steady_state.end()) {
     const std::vector<std::string> names(numbers_of_a_steady_state.begin(), numbers_of_a_steady_state.end());
     const std::string near = nearest_word(key, names);
@@ -156,33 +155,33 @@ void require_branch(const Case &physics, const std::string &key, double to) {
                                  near.empty() ? "" : fmt::format("did you mean '{}'? ", near),
                                  fmt::join(names, ", ")));
   }
-  Case there = physics;
+  Case there = input;
   if (const auto complaint = set_value(*find_key(key), to, there))
     throw InputError(fmt::format("error: --to {}: {}\n{}\n", number_text(to), complaint->message,
                                  "allowed: " + allowed_text(*find_key(key))));
-  if (key == "capsule.radius" && physics.flow.type == FlowType::extension)
+  if (key == "capsule.radius" && input.flow.type == FlowType::extension)
     throw InputError("error: no branch along 'capsule.radius': it is the unit of length in an extension\n");
-  if (!KeyPath(key, physics, to).needed())
+  if (!KeyPath(key, input, to).needed())
     throw InputError(fmt::format("error: {} = {} is where the branch begins\n", key, number_text(to)));
 }
 
 Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control) {
   require_branch(asked, key, to);
-  Case physics = asked;
-  physics.accuracy = std::min(asked.accuracy, accuracy_of_folds);
-  Walk walk(physics, KeyPath(key, physics, to), control);
-  Outcome &outcome = walk.outcome();
+  Case input = asked;
+  input.accuracy = std::min(asked.accuracy, accuracy_of_folds);
+  BranchFollower follower(input, KeyPath(key, input, to), control);
+  Outcome &outcome = follower.outcome();
   outcome.along = key;
   try {
-    walk.begin(refine(physics, find_steady(physics, {}, control), control));
-    while (!walk.go_on()) {
+    follower.begin(refine(input, find_steady(input, {}, control), control));
+    while (!follower.advance()) {
     }
-    outcome.membrane_nodes = walk.nodes();
+    outcome.membrane_nodes = follower.nodes();
   } catch (const NumericsFailure &failure) {
-    walk.end_here();
+    follower.keep_latest();
     outcome.status = Status::failed;
     outcome.failure = failure.kind;
-    outcome.message = fmt::format("{} (after {}); {}", failure.what(), walk.place(), failure.advice);
+    outcome.message = fmt::format("{} (after {}); {}", failure.what(), follower.place(), failure.advice);
   } catch (const Interrupted &) {
     outcome.status = Status::interrupted;
   }

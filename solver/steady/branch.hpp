@@ -12,6 +12,6 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
 
 // Throws InputError unless the key is a number that steady states depend on and `to` is in its range and not
 // where the branch begins.
-void require_branch(const Case &physics, const std::string &key, double to);
+void require_branch(const Case &input, const std::string &key, double to);
 
 } // namespace capsule

@@ -1,6 +1,7 @@
 #include "steady/continuation.hpp"
 #include "base/failure.hpp"
 #include "geometry/node_density.hpp"
+#include "steady/newton.hpp"
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
@@ -8,21 +9,9 @@
 namespace capsule {
 namespace {
 
-constexpr int most_iterations = 25;
-constexpr double position_tolerance = 1e-9;
 constexpr double smallest_step = 1e-6;
 constexpr double largest_slack = 5e-7;
 constexpr double poorly_resolved = 1e-6; // by the measure of node_density.hpp
-
-[[noreturn]] void no_convergence() {
-  throw NumericsFailure("unresolved", "Newton's method does not converge",
-                        "try a finer mesh.membrane or a larger membrane.bending_ratio");
-}
-
-// Whether corrections of these lengths, one after the other, lead anywhere.
-bool contracts(int iteration, double before, double now) {
-  return std::isfinite(now) && (iteration < 2 || now < 0.7 * before);
-}
 
 // The first guess bends with the branch: what it misses, and with it the contraction of Newton's method, is of
 // third order in the step.
@@ -33,27 +22,7 @@ double next_step(double contraction) {
 
 } // namespace
 
-Vector solve_steady(SteadySystem &system, Vector guess, double tolerance) {
-  constexpr double farthest = 3; // that a guess can be from a solution
-  const Eigen::Index n2 = 2 * system.nodes();
-  double before = 0;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    system.fit_tube(guess);
-    const SteadySystem::Linearisation linear = system.linearise(guess);
-    const Vector change = linear.jacobian.partialPivLu().solve(-linear.residual);
-    const double step = system.admissible_step(guess, change);
-    const double length = change.head(n2).cwiseAbs().maxCoeff();
-    if (!(length < farthest) || (iteration > 10 && !contracts(iteration, before, length)))
-      no_convergence();
-    guess += step * change;
-    if (step == 1 && length < tolerance)
-      return guess;
-    before = length;
-  }
-  no_convergence();
-}
-
-Branch::Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction,
+Branch::Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vector &direction,
                const Steps &steps)
     : system_(&system), path_(std::move(path)), point_(std::move(start)), steps_(steps), step_(steps.first),
       trend_(direction[direction.size() - 1] < 0 ? -1 : 1) {
@@ -92,11 +61,11 @@ void Branch::balance() {
 // d residual/d parameter by central differences: the residual is smooth in it, the error about 1e-9.
 Vector Branch::parameter_slope(const BranchPoint &at) const {
   constexpr double h = 1e-5;
-  system_->take(path_(at.parameter + h));
+  system_->set_parameters(path_.at(at.parameter + h));
   const Vector above = system_->residual(at.unknowns);
-  system_->take(path_(at.parameter - h));
+  system_->set_parameters(path_.at(at.parameter - h));
   const Vector below = system_->residual(at.unknowns);
-  system_->take(path_(at.parameter));
+  system_->set_parameters(path_.at(at.parameter));
   return (above - below) / (2 * h);
 }
 
@@ -114,7 +83,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
   Vector slope;
   double before = 1, contraction = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    system_->take(path_(now.parameter));
+    system_->set_parameters(path_.at(now.parameter));
     system_->fit_tube(now.unknowns);
     if (before > little)
       slope = parameter_slope(now);
@@ -197,9 +166,9 @@ void Branch::advance() {
 
 BranchPoint Branch::at_parameter(double parameter) const {
   const double part = (parameter - before_.parameter) / (point_.parameter - before_.parameter);
-  system_->take(path_(parameter));
+  system_->set_parameters(path_.at(parameter));
   const Vector guess = before_.unknowns + part * (point_.unknowns - before_.unknowns);
-  return {solve_steady(*system_, guess, position_tolerance), parameter};
+  return {solve_steady(*system_, guess), parameter};
 }
 
 double Branch::plain_step() const {
@@ -271,9 +240,8 @@ BranchPoint Branch::before_fold(const BranchPoint &fold, double parameter) const
   const BranchPoint &begin = along_tangent_before(fold) > 0 ? before_ : oldest_;
   // Near the fold the parameter lacks the square of the way.
   const double way = std::sqrt((fold.parameter - parameter) / (fold.parameter - begin.parameter));
-  system_->take(path_(parameter));
-  return {solve_steady(*system_, fold.unknowns + way * (begin.unknowns - fold.unknowns), position_tolerance),
-          parameter};
+  system_->set_parameters(path_.at(parameter));
+  return {solve_steady(*system_, fold.unknowns + way * (begin.unknowns - fold.unknowns)), parameter};
 }
 
 } // namespace capsule

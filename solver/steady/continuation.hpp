@@ -1,25 +1,17 @@
 #pragma once
-// Branches of steady states: Newton's method at given parameters, and pseudo-arclength continuation along one
-// parameter, through folds, from guesses that bend with the branch. A point is (unknowns of
-// steady_system.hpp, parameter), and the parameter should be scaled to go through about one. Lengths along
-// a branch add the root mean square displacement of the nodes to it, with a weight that makes both count: a
-// shell that buckles turns a branch within displacements of 1e-3.
+// Branches of steady states: pseudo-arclength continuation along one key, through folds, from guesses that bend with
+// the branch. A point is (unknowns of steady_system.hpp, parameter); the parameter is the part of a key's path, from 0
+// to 1. Lengths along a branch combine the parameter and the root mean square displacement of the nodes, with a weight
+// that makes both count: a shell that buckles turns a branch within displacements of 1e-3.
+#include "case/key_path.hpp"
 #include "steady/steady_system.hpp"
-#include <functional>
 
 namespace capsule {
-
-// The case at a value of the parameter. The scene stays the same.
-using Path = std::function<Case(double)>;
 
 struct BranchPoint {
   Vector unknowns;
   double parameter = 0;
 };
-
-// The steady state next to a guess, at the parameters that the system has taken; position to `tolerance`.
-// Throws NumericsFailure("unresolved") if Newton's method does not converge, or what is wrong with the shape.
-Vector solve_steady(SteadySystem &system, Vector guess, double tolerance);
 
 class Branch {
 public:
@@ -30,7 +22,7 @@ public:
   };
   // `start` is near to a steady state, at the same place along `direction` (changes of the unknowns, then
   // of the parameter), which also tells the side on which the branch begins.
-  Branch(SteadySystem &system, Path path, BranchPoint start, const Vector &direction, const Steps &steps);
+  Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vector &direction, const Steps &steps);
   // ... to where the parameter grows.
   static Vector upwards(const SteadySystem &system);
 
@@ -76,7 +68,7 @@ private:
   void balance();
 
   SteadySystem *system_;
-  Path path_;
+  KeyPath path_;
   BranchPoint point_, before_, oldest_;
   Vector tangent_, tangent_before_;
   Steps steps_;

@@ -32,7 +32,7 @@ double tube_for(double tip) {
 SteadySystem::SteadySystem(const Case &physics, const Resolution &resolution, const Vector &node_angle)
     : scene_(scene_of(physics)), resolution_(resolution), membrane_(standard_membrane(physics, resolution)) {
   membrane_.node_angle = node_angle;
-  take(physics);
+  set_parameters(physics);
   half_length_ = tube_for(membrane_.reference.head(nodes()).cwiseAbs().maxCoeff());
   build_flow();
   const Vector points = flow_->panel_points();
@@ -46,7 +46,7 @@ void SteadySystem::build_flow() {
   flow_.emplace(scene_, membrane_.basis, resolution_.flow);
 }
 
-void SteadySystem::take(const Case &physics) {
+void SteadySystem::set_parameters(const Case &physics) {
   take_physics(physics, membrane_);
   centre_weights_ = nodal_area(membrane_, membrane_.reference);
   centre_weights_ /= centre_weights_.sum();

@@ -22,7 +22,7 @@ public:
   SteadySystem(const Case &physics, const Resolution &resolution, const Vector &node_angle);
 
   // Everything else that the equations hold: capsule, membrane, capillary number.
-  void take(const Case &physics);
+  void set_parameters(const Case &physics);
 
   Eigen::Index nodes() const { return membrane_.basis.size(); }
   Vector undeformed() const; // unknowns

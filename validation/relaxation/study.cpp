@@ -6,6 +6,7 @@
 #include "compare/comparison.hpp"
 #include "motion/dynamics.hpp"
 #include "steady/growth_rates.hpp"
+#include "steady/mesh_change.hpp"
 #include "steady/steady_state.hpp"
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -2,7 +2,9 @@
 // against the bending stiffness, on five meshes; and what the program says where the mesh does not do.
 #include "study.hpp"
 #include "base/failure.hpp"
+#include "case/key_path.hpp"
 #include "steady/continuation.hpp"
+#include "steady/mesh_change.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
 #include <cmath>
@@ -67,8 +69,8 @@ Fold look_at(const SteadyState &state) {
 // From one stiffness to a smaller one, on the same mesh, whatever it resolves.
 void soften(double from, double to, SteadyState &state) {
   const KeyPath path("membrane.bending_ratio", flat(from), to);
-  Branch branch(*state.system, [&](double part) { return path.at(part); }, {state.unknowns, 0},
-                Branch::upwards(*state.system), {.first = 0.3, .largest = 1, .tolerance = 1e-4});
+  Branch branch(*state.system, path, {state.unknowns, 0}, Branch::upwards(*state.system),
+                {.first = 0.3, .largest = 1, .tolerance = 1e-4});
   for (int step = 0; branch.point().parameter < 1; ++step) {
     constexpr int most_steps = 40;
     if (step == most_steps || branch.point().parameter < 0)

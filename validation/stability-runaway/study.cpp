@@ -1,6 +1,9 @@
 // How fast does a capsule run away beyond its fold? Marches in an endless tube just below and just above the fold of a
 // neo-Hookean sphere, and through the paper's pore.
 #include "motion/motion.hpp"
+#include "steady/mesh_change.hpp"
+#include "steady/refinement.hpp"
+#include "steady/steady_state.hpp"
 #include "steady_folds.hpp"
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,8 @@
 // theory of small deformations, and where steady states end.
 #include "compare/run_values.hpp"
 #include "steady/branch.hpp"
+#include "steady/mesh_change.hpp"
+#include "steady/steady_state.hpp"
 #include "steady_folds.hpp"
 #include <algorithm>
 #include <cmath>

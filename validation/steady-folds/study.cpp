@@ -2,6 +2,8 @@
 // stiffness on two meshes; the same search for Skalak's law.
 #include "base/failure.hpp"
 #include "compare/run_values.hpp"
+#include "steady/mesh_change.hpp"
+#include "steady/steady_state.hpp"
 #include "steady_folds.hpp"
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,9 @@
 #include "study.hpp"
 #include "base/failure.hpp"
 #include "steady/growth_rates.hpp"
+#include "steady/mesh_change.hpp"
+#include "steady/newton.hpp"
+#include "steady/refinement.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
 #include <cmath>
@@ -47,12 +50,11 @@ Case case_at(const Law &law, int row, int column) {
 // From a steady state to the neighbour at a higher capillary number, in shorter steps if need be; false where there is
 // none. Beyond a fold Newton's method may find the far side of the branch, where small motions grow.
 bool go(const Case &from, double capillary_number, SteadyState &state, int halvings = 3) {
-  constexpr double tolerance = 1e-9;
   Case to = from;
   to.flow.capillary_number = capillary_number;
-  state.system->take(to);
+  state.system->set_parameters(to);
   try {
-    const Vector found = solve_steady(*state.system, state.unknowns, tolerance);
+    const Vector found = solve_steady(*state.system, state.unknowns);
     if (growth_rates(*state.system, found, 1)[0].real() < 0) {
       state.unknowns = found;
       return true;
@@ -88,7 +90,7 @@ std::string row_of_map(const Law &law, int row) {
   std::map<int, std::string> lines;
   const auto look_at = [&](const SteadyState &state, int column) {
     const Case now = case_at(law, row, column);
-    state.system->take(now);
+    state.system->set_parameters(now);
     const SteadyRecord record = record_steady(state, 1);
     lines[column] =
         fmt::format("{},{:.3g},{:.6f},{:.7f},{:.7f},{:.7f},{:.6f},{:.5f}\n", law.name, radius_of(row),

@@ -1,0 +1,188 @@
+#include "steady/homotopy.hpp"
+#include "base/failure.hpp"
+#include "case/key.hpp"
+#include "case/key_path.hpp"
+#include "steady/continuation.hpp"
+#include "steady/newton.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+
+namespace capsule {
+namespace {
+
+// Where the homotopy begins, unless the case has less: a weaker flow, a smaller capsule, a stiffer shell.
+constexpr double weak_flow = 5e-3;
+constexpr double small_radius = 0.6;
+constexpr double stiff_bending = 2e-2; // a shell that does not buckle
+
+// On the finest mesh a stretch above this that has grown since the fold counts as running away, too.
+constexpr double large_stretch = 2;
+constexpr double growth_behind_fold = 1.03;
+
+constexpr const char *flow_key = "flow.capillary_number";
+
+// The state on the way from a small stiff sphere in a weak flow to a case's capsule.
+class Homotopy {
+public:
+  Homotopy(const Case &target, const Control &control) : target_(target), now_(target), control_(control) {
+    now_.flow.capillary_number = std::min(weak_flow, target.flow.capillary_number);
+    now_.capsule.aspect_ratio = 1;
+    now_.membrane.bending_ratio = std::max(stiff_bending, target.membrane.bending_ratio);
+    if (target.pore.shape != PoreShape::none)
+      now_.capsule.radius = std::min(small_radius, target.capsule.radius);
+    state_.system = first_system(now_);
+    state_.unknowns = solve_steady(*state_.system, state_.system->undeformed());
+  }
+
+  // Takes one key to a value.
+  void vary(const std::string &key, double to) {
+    const KeyPath path(key, now_, to);
+    const SteadyState begin = state_;
+    begin_path();
+    bool arrived = !path.needed();
+    while (!arrived) {
+      try {
+        arrived = follow(path);
+      } catch (const NumericsFailure &failure) {
+        if (failure.kind == "fold" || !can_refine())
+          throw;
+      }
+      if (place_.part < 0) { // the fold that led here was the coarse mesh's own
+        state_ = moved_to_mesh(path.at(0), next_mesh(), begin);
+        begin_path();
+      } else if (!arrived)
+        refine_at(path.at(place_.part));
+    }
+    now_ = path.at(1);
+  }
+
+  const SteadyState &state() const { return state_; }
+
+private:
+  int most() const { return target_.mesh.membrane > 0 ? target_.mesh.membrane : most_nodes; }
+  int next_mesh() const { return std::min(finer_mesh(static_cast<int>(state_.system->nodes())), most()); }
+  bool can_refine() const { return state_.system->nodes() < most(); }
+
+  void begin_path() {
+    place_ = Place{};
+    place_.direction = Branch::upwards(*state_.system);
+  }
+
+  // A guess on a finer mesh, from which the branch goes on in the same direction.
+  void refine_at(const Case &input) {
+    const SteadyState coarse = state_;
+    state_ = moved_to_mesh(input, next_mesh(), coarse);
+    place_.direction = moved_to(*state_.system, *coarse.system, place_.direction);
+  }
+
+  // Follows the branch, if need be through folds, to its end (true) or to where it needs a finer mesh. When it fails,
+  // state_ and place_ hold what was reached.
+  bool follow(const KeyPath &path) {
+    const Branch::Steps steps{.first = place_.first_step, .largest = 0.7, .tolerance = 1e-6};
+    constexpr int most_steps = 200;
+    constexpr double first_part = -1; // as far as a branch that has turned is followed
+    Branch branch(*state_.system, path, {state_.unknowns, place_.part}, place_.direction, steps);
+    for (int step = 0; step < most_steps; ++step) {
+      throw_if_interrupted(control_);
+      state_.unknowns = branch.point().unknowns;
+      place_.part = branch.point().parameter;
+      place_.direction = branch.tangent();
+      place_.first_step = branch.plain_step();
+      try {
+        branch.advance();
+      } catch (const NumericsFailure &failure) {
+        if (!place_.turned_at.empty() && !can_refine())
+          break; // behind the fold, as far as this mesh goes
+        throw NumericsFailure(failure.kind,
+                              fmt::format("{} beyond {}", failure.what(), path.text(place_.part)),
+                              failure.advice);
+      }
+      if (branch.wants_a_finer_mesh() && can_refine())
+        return false;
+      const BranchPoint &now = branch.point();
+      if (branch.turned() && now.parameter < branch.point_before().parameter) {
+        const BranchPoint fold = branch.fold();
+        if (fold.parameter >= 1) { // the step has gone past the end of the path, and back
+          state_.unknowns = branch.before_fold(fold, 1).unknowns;
+          return true;
+        }
+        if (place_.turned_at.empty() || fold.parameter > place_.farthest)
+          place_.farthest = fold.parameter;
+        place_.turned_at = path.text(place_.farthest);
+        place_.stretch_at_fold = state_.system->largest_stretch(fold.unknowns);
+      }
+      if (now.parameter > place_.farthest) // it has come back
+        place_.turned_at.clear();
+      if (now.parameter < first_part ||
+          (!place_.turned_at.empty() && state_.system->largest_stretch(now.unknowns) > runaway_stretch))
+        break;
+      if (now.parameter >= 1) {
+        state_.unknowns = branch.at_parameter(1).unknowns;
+        return true;
+      }
+    }
+    if (place_.turned_at.empty())
+      throw NumericsFailure("unresolved",
+                            fmt::format("the branch does not end beyond {}", path.text(place_.part)),
+                            "try a finer mesh.membrane or a larger membrane.bending_ratio");
+    const double stretch = state_.system->largest_stretch(branch.point().unknowns);
+    if (stretch < large_stretch || stretch < growth_behind_fold * place_.stretch_at_fold)
+      throw NumericsFailure(
+          "unresolved", fmt::format("the branch turns at {} and is not seen to come back", place_.turned_at),
+          "begin with a profile of a march (--from)");
+    throw NumericsFailure("fold", fmt::format("fold at {}", place_.turned_at), "stay on the near side of it");
+  }
+
+  // How far the branch of one key has been followed.
+  struct Place {
+    double part = 0;
+    Vector direction; // in which it goes on
+    double first_step = 0.2;
+    std::string turned_at; // the farthest fold, while the branch is behind it
+    double farthest = 0, stretch_at_fold = 0;
+  };
+
+  Case target_, now_;
+  const Control &control_;
+  SteadyState state_;
+  Place place_;
+};
+
+// Everything but the capillary number, in a flow of given strength: where the flow is not too weak, a shell gets thin
+// without buckling.
+Homotopy in_a_flow(double strength, const Case &target, const Control &control) {
+  Homotopy homotopy(target, control);
+  homotopy.vary(flow_key, strength);
+  homotopy.vary("capsule.radius", target.capsule.radius);
+  homotopy.vary("capsule.aspect_ratio", target.capsule.aspect_ratio);
+  homotopy.vary("membrane.bending_ratio", target.membrane.bending_ratio);
+  return homotopy;
+}
+
+} // namespace
+
+SteadyState by_homotopy(const Case &input, const Control &control) {
+  std::optional<NumericsFailure> first;
+  const double flow = input.flow.capillary_number;
+  const double weakest = input.flow.type == FlowType::extension ? 0 : 0.03; // only a tube squeezes
+  for (const double strength : {std::clamp(flow, weakest, 0.06), 0.02, 0.12}) {
+    bool only_flow_is_left = false;
+    try {
+      Homotopy homotopy = in_a_flow(strength, input, control);
+      only_flow_is_left = flow > strength;
+      homotopy.vary(flow_key, flow);
+      return homotopy.state();
+    } catch (const NumericsFailure &failure) {
+      if (only_flow_is_left && failure.kind == "fold")
+        throw NumericsFailure("fold", fmt::format("no steady state: {}", failure.what()), failure.advice);
+      if (!first)
+        first = failure;
+    }
+  }
+  throw NumericsFailure(first->kind == "fold" ? "unresolved" : first->kind,
+                        fmt::format("no way found from a small stiff sphere: {}", first->what()),
+                        first->kind == "fold" ? "try a larger membrane.bending_ratio" : first->advice);
+}
+
+} // namespace capsule

@@ -1,0 +1,14 @@
+#pragma once
+// A case's steady state from nothing: branches (continuation.hpp) lead from a small stiff sphere in a weak flow to the
+// case's capsule, one key after the other, the capillary number last. The mesh gets finer on the way where it must.
+#include "motion/motion.hpp"
+#include "steady/mesh_change.hpp"
+
+namespace capsule {
+
+// Throws NumericsFailure, of the kind "fold" when there is no steady state because the branch of growing capillary
+// numbers turns back and the membrane runs away behind the fold: the text says where. Any other turn says nothing
+// about the case, and is "unresolved". Throws Interrupted.
+SteadyState by_homotopy(const Case &input, const Control &control);
+
+} // namespace capsule

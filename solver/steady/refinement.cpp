@@ -1,0 +1,102 @@
+#include "steady/refinement.hpp"
+#include "steady/growth_rates.hpp"
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <fmt/format.h>
+
+namespace capsule {
+namespace {
+
+// Errors of the finer of two meshes: its difference from the coarser one, and the quadrature's error, which both may
+// share and which shows between the two pressure drops.
+std::map<std::string, double> errors_of(const SeriesRow &fine, const SeriesRow &coarse) {
+  const double quadrature = std::abs(fine.pressure_drop - fine.pressure_drop_reciprocal);
+  const double relative = quadrature / std::max(std::abs(fine.pressure_drop), 1.0);
+  const auto error = [&](double SeriesRow::*quantity, double common) {
+    return std::abs(fine.*quantity - coarse.*quantity) + common;
+  };
+  return {{"v_g", error(&SeriesRow::v_g, relative)},
+          {"pressure_drop", error(&SeriesRow::pressure_drop, quadrature)},
+          {"max_stretch", error(&SeriesRow::max_stretch, relative)},
+          {"front_stretch", error(&SeriesRow::front_stretch, relative)},
+          {"min_film", error(&SeriesRow::min_film, relative)},
+          {"length", error(&SeriesRow::length, relative)},
+          {"deformation", error(&SeriesRow::deformation, relative)},
+          {"volume_change", std::abs(fine.volume_change)}};
+}
+
+// Whether two meshes agree: quantities of the whole membrane to a tenth of the accuracy, the stretches, which are
+// local, to the accuracy itself. The finer mesh is closer to the truth by an order or more.
+bool agree(const SeriesRow &a, const SeriesRow &b, double accuracy) {
+  const auto near = [&](double SeriesRow::*quantity, double scale, double share) {
+    return std::abs(a.*quantity - b.*quantity) <= share * accuracy * scale;
+  };
+  return near(&SeriesRow::v_g, 1, 0.1) && near(&SeriesRow::pressure_drop, std::abs(a.pressure_drop), 0.1) &&
+         near(&SeriesRow::length, a.length, 0.1) && near(&SeriesRow::deformation, 1, 0.1) &&
+         near(&SeriesRow::max_stretch, a.max_stretch, 1) &&
+         near(&SeriesRow::front_stretch, a.front_stretch, 1);
+}
+
+std::string poorly_resolved(int nodes) {
+  return fmt::format("meshes up to {} nodes differ by more than the accuracy asked for; a larger "
+                     "membrane.bending_ratio has smoother shapes",
+                     nodes);
+}
+
+// Row and profile of a state with its centre at x = 0; no rates yet.
+SteadyRecord measure(const SteadyState &state) {
+  const SteadySystem &system = *state.system;
+  const Gauge gauge(system.scene(), system.membrane());
+  Vector position = state.unknowns.head(2 * system.nodes());
+  position.head(system.nodes()).array() -= gauge.centre(position);
+  const FlowState flow = system.flow(position);
+  SteadyRecord record{gauge.row(0, position, flow.velocity), gauge.profile(0, position, flow.velocity), {}};
+  record.row.x_g = 0; // exactly
+  record.profile.x_g = 0;
+  record.row.pressure_drop = flow.pressure_drop;
+  record.row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
+  return record;
+}
+
+} // namespace
+
+RefinedState refine(const Case &input, const SteadyState &state, const Control &control) {
+  const bool given = input.mesh.membrane > 0;
+  RefinedState refined{given ? on_mesh(input, input.mesh.membrane, state) : state, {}, ""};
+  auto nodes = static_cast<int>(refined.state.system->nodes());
+  SeriesRow row = measure(refined.state).row;
+  if (given || finer_mesh(nodes) > most_nodes) { // no finer mesh: a coarser one tells the error
+    const SeriesRow coarse = measure(on_mesh(input, std::max(3, 3 * nodes / 4), refined.state)).row;
+    refined.error_estimate = errors_of(row, coarse);
+    if (!given && !agree(row, coarse, input.accuracy))
+      refined.warning = poorly_resolved(nodes);
+    return refined;
+  }
+  for (;;) {
+    throw_if_interrupted(control);
+    nodes = finer_mesh(nodes);
+    refined.state = on_mesh(input, nodes, refined.state);
+    const SeriesRow before = row;
+    row = measure(refined.state).row;
+    refined.error_estimate = errors_of(row, before);
+    if (agree(row, before, input.accuracy))
+      return refined;
+    if (finer_mesh(nodes) > most_nodes) {
+      refined.warning = poorly_resolved(nodes);
+      return refined;
+    }
+  }
+}
+
+SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
+  const SteadySystem &system = *state.system;
+  SteadyRecord record = measure(state);
+  const std::complex<double> slowest = growth_rates(system, state.unknowns, viscosity_ratio)[0];
+  record.rates = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
+  if (system.scene().flow.type == FlowType::pore)
+    record.rates["growth_per_length"] = slowest.real() / record.row.v_g;
+  return record;
+}
+
+} // namespace capsule

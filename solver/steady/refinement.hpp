@@ -1,0 +1,28 @@
+#pragma once
+// A steady state on finer and finer meshes until its error is as small as asked for, and what is reported of it.
+#include "motion/motion.hpp"
+#include "steady/mesh_change.hpp"
+#include <map>
+#include <string>
+
+namespace capsule {
+
+struct RefinedState {
+  SteadyState state;
+  std::map<std::string, double> error_estimate; // from the mesh before and the two pressure drops
+  std::string warning;                          // when they are larger than asked for
+};
+// Until the last two meshes agree to the accuracy asked for, in the pressure drop and other integrals to a tenth of it.
+// With a given mesh.membrane, on that mesh and on one of three quarters of its nodes. Throws NumericsFailure,
+// Interrupted.
+RefinedState refine(const Case &input, const SteadyState &state, const Control &control);
+
+// At time 0 and x_g = 0.
+struct SteadyRecord {
+  SeriesRow row;
+  Profile profile;
+  std::map<std::string, double> rates; // growth_rate, oscillation_rate, growth_per_length
+};
+SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
+
+} // namespace capsule

@@ -1,0 +1,67 @@
+// Numbers behind keys, and their way from one value to another.
+#include "case/key.hpp"
+#include "case/key_path.hpp"
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+using namespace capsule;
+
+namespace {
+
+Case some_case() {
+  Case input;
+  input.capsule.radius = 0.8;
+  input.membrane.bending_ratio = 1e-2;
+  input.membrane.dilatation = -0.25;
+  input.mesh.membrane = 48;
+  return input;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(key_path)
+
+BOOST_AUTO_TEST_CASE(numbers_and_what_is_none) {
+  Case input = some_case();
+  BOOST_TEST(number(*find_key("capsule.radius"), input).value() == 0.8);
+  BOOST_TEST(number(*find_key("mesh.membrane"), input).value() == 48);
+  BOOST_TEST(!number(*find_key("membrane.law"), input).has_value());
+  BOOST_TEST(!number(*find_key("physical.viscosity"), input).has_value());
+  BOOST_TEST(!number(*find_key("output.profiles_at_time"), input).has_value());
+  BOOST_TEST(!number(*find_key("until.time"), input).has_value());
+  input.until.time = 3;
+  BOOST_TEST(number(*find_key("until.time"), input).value() == 3);
+}
+
+// Both ends are exact, and nothing but the key changes.
+BOOST_AUTO_TEST_CASE(from_one_value_to_another) {
+  const Case input = some_case();
+  for (const double to : {1e-2, 3e-7, 0.0, 5.0}) {
+    const KeyPath path("membrane.bending_ratio", input, to);
+    BOOST_TEST(path.needed() == (to != 1e-2));
+    BOOST_TEST(path.at(0).membrane.bending_ratio == 1e-2);
+    BOOST_TEST(path.at(1).membrane.bending_ratio == to);
+    double before = path.value(0);
+    for (const double part : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+      BOOST_TEST((path.value(part) - before) * (to - 1e-2) >= 0);
+      before = path.value(part);
+    }
+    Case there = path.at(0.3);
+    BOOST_TEST(there.capsule.radius == 0.8);
+    BOOST_TEST(there.membrane.dilatation == -0.25);
+  }
+  BOOST_TEST(KeyPath("capsule.radius", input, 0.5).text(1) == "capsule.radius = 0.5");
+}
+
+// Between positive values the eighth root is a straight line; with a negative end the value is one.
+BOOST_AUTO_TEST_CASE(steps_suit_any_magnitude) {
+  const Case input = some_case();
+  const KeyPath small("membrane.bending_ratio", input, 1e-10);
+  const double middle = (std::pow(1e-2, 0.125) + std::pow(1e-10, 0.125)) / 2;
+  BOOST_TEST(std::abs(small.value(0.5) / std::pow(middle, 8) - 1) < 1e-12);
+  const KeyPath through_zero("membrane.dilatation", input, 1);
+  BOOST_TEST(std::abs(through_zero.value(0.2)) < 1e-15);
+  BOOST_TEST(std::abs(through_zero.value(2) - 2.25) < 1e-15);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
