@@ -11,11 +11,11 @@ namespace {
 
 constexpr double smallest_step = 1e-6;
 constexpr double largest_slack = 5e-7;
-constexpr double poorly_resolved = 1e-6; // by the measure of node_density.hpp
+constexpr double poorly_resolved = 1e-6; // unresolved_part of node_density.hpp
 
-// The first guess bends with the branch: what it misses, and with it the contraction of Newton's method, is of
-// third order in the step.
-double next_step(double contraction) {
+// Factor from one step to the next. The first guess bends with the branch, so its error, and with it the contraction of
+// Newton's method, is of third order in the step.
+double step_factor(double contraction) {
   constexpr double intended = 0.25;
   return contraction == 0 ? 1.4 : std::clamp(std::cbrt(intended / contraction), 0.5, 2.0);
 }
@@ -44,8 +44,8 @@ double Branch::weighted(const Vector &a, const Vector &b) const {
          a[a.size() - 1] * b[b.size() - 1];
 }
 
-// Where the parameter alone would count, displacements get the weight to count as much; it goes back where they
-// alone count.
+// Raises the weight of displacements where the parameter alone would count, until both count alike; lowers it where
+// displacements alone count.
 void Branch::balance() {
   constexpr double largest_weight = 1e5;
   const double share = std::pow(tangent_[tangent_.size() - 1], 2); // the tangent has length one
@@ -55,7 +55,7 @@ void Branch::balance() {
     weight_ = std::max(weight_ / 2, 1.0);
   const double stretched = std::sqrt(weighted(tangent_, tangent_));
   tangent_ /= stretched;
-  step_ = std::min(step_ * stretched, steps_.largest); // the same way as before, if allowed
+  step_ = std::min(step_ * stretched, steps_.largest); // to the same point as before, if allowed
 }
 
 // d residual/d parameter by central differences: the residual is smooth in it, the error about 1e-9.
@@ -72,20 +72,20 @@ Vector Branch::parameter_slope(const BranchPoint &at) const {
 // The point at a length `step` along the tangent, from a guess that bends away from it.
 Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
                                   double tolerance, const Vector &curvature) const {
-  constexpr double little = 1e-3; // a correction after which the parameter's column may stay
+  constexpr double small_correction = 1e-3; // after it the parameter's column is not computed again
   const Eigen::Index m = from.unknowns.size();
   const Eigen::Index n = system_->nodes();
   Vector row = Vector::Zero(m + 1);
   row.head(2 * n) = weight_ / static_cast<double>(n) * tangent.head(2 * n);
   row[m] = tangent[m];
-  const Vector way = step * tangent + step * step / 2 * curvature;
-  BranchPoint now{from.unknowns + way.head(m), from.parameter + way[m]};
+  const Vector advance = step * tangent + step * step / 2 * curvature;
+  BranchPoint now{from.unknowns + advance.head(m), from.parameter + advance[m]};
   Vector slope;
   double before = 1, contraction = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     system_->set_parameters(path_.at(now.parameter));
     system_->fit_tube(now.unknowns);
-    if (before > little)
+    if (before > small_correction)
       slope = parameter_slope(now);
     const SteadySystem::Linearisation linear = system_->linearise(now.unknowns);
     Matrix bordered(m + 1, m + 1);
@@ -99,18 +99,17 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     const double length = std::sqrt(weighted(change, change));
     if (!contracts(iteration, before, length) || system_->admissible_step(now.unknowns, change.head(m)) < 1)
       no_convergence();
-    // The second correction may be large where the third is none. From a matrix that is not quite the derivative
-    // corrections shrink by some part, however short the step.
-    const double now_by_before = length / before;
+    // The second correction may be large although the third is tiny: the mean of both ratios counts. Where the matrix is
+    // not quite the derivative, corrections shrink by a constant ratio, however short the step: it is subtracted.
+    const double ratio = length / before;
     if (iteration == 1)
-      contraction = now_by_before;
+      contraction = ratio;
     else if (iteration == 2)
-      contraction =
-          std::max(std::min(contraction - now_by_before, std::sqrt(contraction * now_by_before)), 1e-3);
+      contraction = std::max(std::min(contraction - ratio, std::sqrt(contraction * ratio)), 1e-3);
     before = length;
     now.unknowns += change.head(m);
     now.parameter += change[m];
-    // A large slack tells of a coarse mesh only where nothing else is left of a correction.
+    // A large slack is the error of a coarse mesh only if no correction is left: then corrections go on for longer.
     const bool slack_is_small = std::abs(now.unknowns[m - 1]) <= largest_slack;
     const double enough = slack_is_small ? tolerance : std::max(tolerance / 100, position_tolerance);
     if (length < enough * std::sqrt(weight_)) {
@@ -124,15 +123,15 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
   no_convergence();
 }
 
-// Derivative of the tangent along the branch, from the last two points. It bends the first guess: a thin shell
-// resists any stretch, and a straight displacement that turns parts of it stretches these in second order.
+// Derivative of the tangent along the branch, from the last two points, by which the first guess bends. A straight
+// displacement that rotates parts of the shell stretches them in second order, and a thin shell resists any stretch.
 Vector Branch::curvature() const {
   if (points_ == 1)
     return Vector::Zero(tangent_.size());
-  Vector way(tangent_.size());
-  way << point_.unknowns - before_.unknowns, point_.parameter - before_.parameter;
+  Vector chord(tangent_.size());
+  chord << point_.unknowns - before_.unknowns, point_.parameter - before_.parameter;
   const Vector earlier = tangent_before_ / std::sqrt(weighted(tangent_before_, tangent_before_));
-  return (tangent_ - earlier) / weighted(way, tangent_);
+  return (tangent_ - earlier) / weighted(chord, tangent_);
 }
 
 void Branch::advance() {
@@ -151,7 +150,7 @@ void Branch::advance() {
         tangent_ = next.tangent;
         trend_before_ = trend_;
         trend_ = point_.parameter < before_.parameter ? -1 : 1;
-        step_ = std::min(next_step(next.contraction) * step_, steps_.largest);
+        step_ = std::min(step_factor(next.contraction) * step_, steps_.largest);
         return;
       }
     } catch (const NumericsFailure &) {
@@ -192,21 +191,21 @@ bool Branch::tangent_has_turned() const {
 }
 
 double Branch::along_tangent_before(const BranchPoint &at) const {
-  Vector way(tangent_before_.size());
-  way << at.unknowns - before_.unknowns, at.parameter - before_.parameter;
-  return weighted(way, tangent_before_);
+  Vector chord(tangent_before_.size());
+  chord << at.unknowns - before_.unknowns, at.parameter - before_.parameter;
+  return weighted(chord, tangent_before_);
 }
 
-// So that a way from the point before, begun along its tangent, ends at a given point.
+// The curvature with which a parabola from the point before, along its tangent there, ends at a given point.
 Vector Branch::bend_towards(const BranchPoint &end) const {
-  Vector way(tangent_before_.size());
-  way << end.unknowns - before_.unknowns, end.parameter - before_.parameter;
+  Vector chord(tangent_before_.size());
+  chord << end.unknowns - before_.unknowns, end.parameter - before_.parameter;
   const double length = along_tangent_before(end);
-  return 2 / (length * length) * (way - length * tangent_before_);
+  return 2 / (length * length) * (chord - length * tangent_before_);
 }
 
-// Where the parameter has no slope along the arc: by the tangents, or, if they do not see it because the mesh
-// resolves some end of the shape poorly, by differences of the parameter itself.
+// The point where the parameter's slope along the arc vanishes. The slope is that of the tangents, or, if these do not
+// change sign because the mesh resolves a tip of the shape poorly, a difference of the parameter itself.
 BranchPoint Branch::fold() const {
   const double last = along_tangent_before(point_);
   const double first = points_ > 2 ? along_tangent_before(oldest_) : -last;
@@ -238,10 +237,10 @@ BranchPoint Branch::fold() const {
 
 BranchPoint Branch::before_fold(const BranchPoint &fold, double parameter) const {
   const BranchPoint &begin = along_tangent_before(fold) > 0 ? before_ : oldest_;
-  // Near the fold the parameter lacks the square of the way.
-  const double way = std::sqrt((fold.parameter - parameter) / (fold.parameter - begin.parameter));
+  // Near the fold the parameter falls with the square of the distance.
+  const double distance = std::sqrt((fold.parameter - parameter) / (fold.parameter - begin.parameter));
   system_->set_parameters(path_.at(parameter));
-  return {solve_steady(*system_, fold.unknowns + way * (begin.unknowns - fold.unknowns)), parameter};
+  return {solve_steady(*system_, fold.unknowns + distance * (begin.unknowns - fold.unknowns)), parameter};
 }
 
 } // namespace capsule

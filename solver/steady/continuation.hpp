@@ -15,38 +15,39 @@ struct BranchPoint {
 
 class Branch {
 public:
-  // Along the branch; and how far the last correction of a point may be, in displacement. The next one would be
-  // about its square.
+  // Lengths along the branch; and of the last correction of a point, in displacement: the next one would be about its
+  // square.
   struct Steps {
     double first, largest, tolerance;
   };
-  // `start` is near to a steady state, at the same place along `direction` (changes of the unknowns, then
-  // of the parameter), which also tells the side on which the branch begins.
+  // `start` is near to a steady state. The branch begins with the state next to it in the plane across `direction`
+  // (changes of the unknowns, then of the parameter), and goes on to that side.
   Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vector &direction, const Steps &steps);
-  // ... to where the parameter grows.
+  // The direction in which the parameter alone grows.
   static Vector upwards(const SteadySystem &system);
 
   const BranchPoint &point() const { return point_; }
   // Length of the next step as Steps::first has it, without a weight.
   double plain_step() const;
-  // The direction in which the branch goes on.
+  // The direction in which the branch goes on, like `direction` above.
   const Vector &tangent() const { return tangent_; }
-  // The same of the point before.
+  // The same for the point before.
   const BranchPoint &point_before() const { return before_; }
   const Vector &tangent_before() const { return tangent_before_; }
 
   // To the next point. Throws NumericsFailure when the smallest step fails; the branch stays where it was.
   void advance();
-  // Whether the last point is poorly resolved: then the exact derivative is not that of the discrete equations any
-  // more, and Newton's method soon fails.
+  // Whether the last point is poorly resolved: then the exact derivative differs from that of the discrete equations,
+  // and Newton's method soon fails.
   bool wants_a_finer_mesh() const;
   // The steady state between the last two points at a parameter between theirs.
   BranchPoint at_parameter(double parameter) const;
-  // Whether the parameter has turned back in the last step or shortly before it, and the fold there. Throws
-  // NumericsFailure where a mesh is so poor that a turn of the points is none of the branch.
+  // Whether the parameter has turned back in the last step or shortly before it.
   bool turned() const;
-  // Whether the tangent sees it, too; if not, the mesh resolves some part of the shape too poorly to tell.
+  // Whether the tangent has turned, too; if not, the mesh resolves some part of the shape too poorly to tell.
   bool tangent_has_turned() const;
+  // The fold where it has turned. Throws NumericsFailure if there is none: on a poor mesh points may turn back where the
+  // branch does not.
   BranchPoint fold() const;
   // The steady state on the near side of that fold, at a parameter between the fold's and that of the last point before.
   BranchPoint before_fold(const BranchPoint &fold, double parameter) const;
@@ -55,7 +56,7 @@ private:
   struct Corrected {
     BranchPoint point;
     Vector tangent;
-    // Of the second correction to the first, less that of the third to the second; 0 if there was one only.
+    // Ratio of the second correction to the first, or with a third one a mean of both ratios; 0 after one correction.
     double contraction = 0;
   };
   Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
