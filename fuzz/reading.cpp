@@ -2,6 +2,7 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/case_file.hpp"
+#include "case/identity.hpp"
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>

@@ -1,5 +1,7 @@
 #include "case/case_checks.hpp"
 #include "base/text.hpp"
+#include "case/case.hpp"
+#include "case/keys.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #pragma once
 // What the values of one run must be to each other: the scheme's step and tolerance, what each preset and each flow can
 // compute, and a capsule that fits into the pore from its start to its end. A value alone is checked by its key.
-#include "case/case_file.hpp"
 #include "case/case_reader.hpp"
+#include "case/task.hpp"
 
 namespace capsule {
 

@@ -1,14 +1,12 @@
 #include "case/case_file.hpp"
-#include "base/build_info.hpp"
 #include "base/text.hpp"
 #include "case/case_checks.hpp"
 #include "case/case_reader.hpp"
-#include "case/key.hpp"
 #include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include "case/physical.hpp"
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <fmt/format.h>
 
 namespace capsule {
@@ -177,25 +175,6 @@ std::vector<RunInput> build_runs(CaseReader &reader, const Task &task) {
   return runs;
 }
 
-// The input without what makes no difference to the results.
-std::string what_counts(const Case &physics, const Task &task) {
-  Case relevant = physics;
-  if (!task.motion) {
-    relevant.capsule.start_x = Case{}.capsule.start_x;
-    relevant.time = {};
-    relevant.until = {};
-    relevant.output = {};
-    if (relevant.pore.shape != PoreShape::none)
-      relevant.pore = {.shape = PoreShape::tube};
-  }
-  forget_spellings(relevant);
-  relevant.title.clear();
-  relevant.paper.clear();
-  if (physics.numerics == Numerics::paper) // its meshes and its step are given
-    relevant.accuracy = Case{}.accuracy;
-  return resolved_toml(relevant);
-}
-
 } // namespace
 
 CaseInput read_case(const fs::path &path, const std::vector<std::string> &overrides, const Task &task) {
@@ -221,34 +200,6 @@ CaseInput read_case(const fs::path &path, const std::vector<std::string> &overri
     families = std::max<std::size_t>(1, reader.families.size());
   }
   return input;
-}
-
-std::string resolved_toml(const Case &physics) {
-  std::string text, section;
-  for (const Key &key : keys()) {
-    const auto value = get_value(key, physics);
-    if (!value)
-      continue;
-    if (section_of(key.name) != section) {
-      section = section_of(key.name);
-      text += fmt::format("\n[{}]\n", section);
-    }
-    text += fmt::format("{} = {}\n", last_component(key.name), value_text(*value));
-  }
-  return text;
-}
-
-bool same_input(const Case &a, const Case &b, const Task &task) {
-  return what_counts(a, task) == what_counts(b, task);
-}
-
-std::string run_identity(const Case &physics, const Task &task) {
-  // FNV-1a, 64 bit
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const char c :
-       fmt::format("{}\n{}\n{}", build_info::source_digest, task.name, what_counts(physics, task)))
-    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return fmt::format("{:016x}", hash);
 }
 
 } // namespace capsule

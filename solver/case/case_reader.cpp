@@ -1,5 +1,7 @@
 #include "case/case_reader.hpp"
 #include "base/text.hpp"
+#include "case/case.hpp"
+#include "case/keys.hpp"
 #include "case/toml_text.hpp"
 #include <algorithm>
 #include <fmt/format.h>

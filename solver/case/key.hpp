@@ -1,10 +1,10 @@
 #pragma once
-// The keys of a case file, each declared once: its meaning, its place in a Case, its default and what is
-// allowed. Reading, validation, `capsule keys`, `capsule show`, resolved.toml, --set and sweeps all follow
-// from this table.
-#include "case/case.hpp"
+// What a key of a case file is: its meaning, its place in a Case, its default and what is allowed; and how values are set,
+// read and told. The keys themselves are in keys.hpp. Throws nothing.
+#include "base/range.hpp"
+#include "case/located_text.hpp"
+#include "case/units.hpp"
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,19 +12,13 @@
 
 namespace capsule {
 
+struct Case;
+
 // A value as it stands in a file. Unsupported: something no key takes, in words ("a boolean").
 struct Unsupported {
   std::string what;
 };
 using Value = std::variant<Unsupported, std::string, std::int64_t, double, std::vector<double>>;
-
-// What a key may be, as an interval.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_allowed = false;
-  bool high_allowed = false;
-};
 
 // Where a key's value lives in a Case.
 template <class T>
@@ -45,6 +39,13 @@ struct Measured {
 using Field = std::variant<Member<std::string>, Member<double>, Member<int>, Member<std::optional<double>>,
                            Member<std::vector<double>>, Choice, Measured>;
 
+// What a key is to a steady state.
+enum class SteadyRole {
+  none,     // of the motion alone: its start, its end, its steps, the mouth
+  result,   // results depend on it
+  parameter // a number in its equations: branches go along it
+};
+
 struct Key {
   std::string name;    // "flow.capillary_number"
   std::string meaning; // with the paper's symbol
@@ -53,23 +54,14 @@ struct Key {
   // How the value is found when the key is not given; empty: the value of a fresh Case.
   std::string automatic = {};
   bool required = false;
+  SteadyRole steady = SteadyRole::result;
 };
 
-const std::vector<Key> &keys();
-const Key *find_key(const std::string &name);
-
-// Why a value cannot be taken, and what may have been meant.
-struct Complaint {
-  std::string message;
-  std::string hint;
-};
+// Why the key cannot take a value, if it cannot.
 std::optional<Complaint> set_value(const Key &key, const Value &value, Case &physics);
 
 // No value: not given, chosen automatically. A quantity with its unit is a text, as it was typed.
 std::optional<Value> get_value(const Key &key, const Case &physics);
-// From now on all quantities stand in SI units, the same ones for "5 um" and "5e-3 mm".
-void forget_spellings(Case &physics);
-
 // As TOML writes it.
 std::string value_text(const Value &value);
 // What is allowed, in words: "0 < value <= 90", "one of 'pore', 'extension'".

@@ -1,5 +1,5 @@
 #include "case/key_path.hpp"
-#include "case/key.hpp"
+#include "case/keys.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -12,6 +12,12 @@
 
 namespace capsule {
 
+// What is wrong with a value or a text, and what may have been meant.
+struct Complaint {
+  std::string message;
+  std::string hint;
+};
+
 struct TextPlace {
   std::size_t source = 0; // which of the texts
   std::size_t line = 1;

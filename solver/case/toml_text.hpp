@@ -1,6 +1,5 @@
 #pragma once
 // Files of TOML as text and as tables, or what is wrong with them. Throws nothing.
-#include "case/key.hpp"
 #include "case/located_text.hpp"
 #include <filesystem>
 #include <string>

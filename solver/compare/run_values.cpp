@@ -1,8 +1,8 @@
 #include "compare/run_values.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
-#include "case/key.hpp"
 #include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "output/provenance.hpp"
 #include "base/build_info.hpp"
 #include "base/json_file.hpp"
+#include "case/identity.hpp"
 #include <algorithm>
 #include <cblas.h>
 #include <chrono>

@@ -1,7 +1,7 @@
 #include "output/summary.hpp"
 #include "base/atomic_file.hpp"
 #include "base/json_file.hpp"
-#include "case/key.hpp"
+#include "case/keys.hpp"
 #include "case/physical.hpp"
 #include "observe/columns.hpp"
 #include "output/tables.hpp"

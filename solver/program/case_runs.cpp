@@ -2,6 +2,7 @@
 #include "base/atomic_file.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
+#include "case/identity.hpp"
 #include "output/results.hpp"
 #include "program/progress.hpp"
 #include "program/workers.hpp"

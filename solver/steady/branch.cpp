@@ -1,17 +1,18 @@
 #include "steady/branch.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
-#include "case/key.hpp"
 #include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include "steady/continuation.hpp"
 #include "steady/refinement.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace capsule {
 namespace {
@@ -21,9 +22,14 @@ constexpr double accuracy_of_folds = 1e-6;
 constexpr int most_nodes_of_a_branch = 300;
 constexpr int most_points = 500;
 
-constexpr std::array numbers_of_a_steady_state{"flow.capillary_number", "capsule.radius",
-                                               "capsule.aspect_ratio", "membrane.bending_ratio",
-                                               "membrane.dilatation"};
+// The keys along which a branch may go.
+std::vector<std::string> keys_of_branches() {
+  std::vector<std::string> names;
+  for (const Key &key : keys())
+    if (key.steady == SteadyRole::parameter)
+      names.push_back(key.name);
+  return names;
+}
 
 // What is recorded of a branch's points as they are found.
 class Record {
@@ -148,8 +154,8 @@ private:
 } // namespace
 
 void require_branch(const Case &input, const std::string &key, double to) {
-  if (std::ranges::find(numbers_of_a_steady_state, key) == numbers_of_a_steady_state.end()) {
-    const std::vector<std::string> names(numbers_of_a_steady_state.begin(), numbers_of_a_steady_state.end());
+  const std::vector<std::string> names = keys_of_branches();
+  if (std::ranges::find(names, key) == names.end()) {
     const std::string near = nearest_word(key, names);
     throw InputError(fmt::format("error: no branch along '{}'\n{}it goes along one of {}\n", key,
                                  near.empty() ? "" : fmt::format("did you mean '{}'? ", near),

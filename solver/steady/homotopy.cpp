@@ -1,6 +1,5 @@
 #include "steady/homotopy.hpp"
 #include "base/failure.hpp"
-#include "case/key.hpp"
 #include "case/key_path.hpp"
 #include "steady/continuation.hpp"
 #include "steady/newton.hpp"

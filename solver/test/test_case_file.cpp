@@ -3,7 +3,8 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/case_file.hpp"
-#include "case/key.hpp"
+#include "case/identity.hpp"
+#include "case/keys.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cstring>

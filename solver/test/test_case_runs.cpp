@@ -1,5 +1,6 @@
 // The runs of a case with a stand-in for the march: reuse, interruption at any step, sharing, failures.
 #include "base/failure.hpp"
+#include "case/identity.hpp"
 #include "program/case_runs.hpp"
 #include "temporary_directory.hpp"
 #include <atomic>

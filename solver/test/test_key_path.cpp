@@ -1,6 +1,6 @@
 // Numbers behind keys, and their way from one value to another.
-#include "case/key.hpp"
 #include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 // Cases in physical units: groups and scales by hand, and where contradictions are said.
 #include "base/failure.hpp"
 #include "case/case_file.hpp"
+#include "case/identity.hpp"
 #include "case/physical.hpp"
 #include "temporary_directory.hpp"
 #include <array>

@@ -2,6 +2,7 @@
 #include "base/atomic_file.hpp"
 #include "base/json_file.hpp"
 #include "case/case_file.hpp"
+#include "case/identity.hpp"
 #include "output/results.hpp"
 #include "output/summary.hpp"
 #include "random_checkpoint.hpp"

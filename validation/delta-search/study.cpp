@@ -1,6 +1,7 @@
 // Which bending stiffness keeps the membrane of each of the paper's runs from buckling, and what does each published
 // number owe to it? Every run of the cases below is repeated with stiffnesses of whole decades on two meshes.
 #include "study.hpp"
+#include "case/identity.hpp"
 #include "compare/comparison.hpp"
 #include "scene/resolution.hpp"
 #include <algorithm>

@@ -1,0 +1,61 @@
+#include "case/identity.hpp"
+#include "base/build_info.hpp"
+#include "base/text.hpp"
+#include "case/case.hpp"
+#include "case/keys.hpp"
+#include <cstdint>
+#include <fmt/format.h>
+
+namespace capsule {
+namespace {
+
+// The keys that `wanted` accepts, as a case file.
+template <class Wanted>
+std::string toml_of(const Case &physics, Wanted wanted) {
+  std::string text, section;
+  for (const Key &key : keys()) {
+    const auto value = wanted(key) ? get_value(key, physics) : std::nullopt;
+    if (!value)
+      continue;
+    if (section_of(key.name) != section) {
+      section = section_of(key.name);
+      text += fmt::format("\n[{}]\n", section);
+    }
+    text += fmt::format("{} = {}\n", last_component(key.name), value_text(*value));
+  }
+  return text;
+}
+
+// The input without what makes no difference to the results.
+std::string what_counts(const Case &physics, const Task &task) {
+  Case in_si = physics;
+  forget_spellings(in_si);
+  return toml_of(in_si, [&](const Key &key) {
+    if (key.name == "title" || key.name == "paper")
+      return false;
+    if (key.name == "accuracy" && physics.numerics == Numerics::paper) // its meshes and its step are given
+      return false;
+    return task.motion || key.steady != SteadyRole::none;
+  });
+}
+
+} // namespace
+
+std::string resolved_toml(const Case &physics) {
+  return toml_of(physics, [](const Key & /*key*/) { return true; });
+}
+
+bool same_input(const Case &a, const Case &b, const Task &task) {
+  return what_counts(a, task) == what_counts(b, task);
+}
+
+std::string run_identity(const Case &physics, const Task &task) {
+  // FNV-1a, 64 bit
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const char c :
+       fmt::format("{}\n{}\n{}", build_info::source_digest, task.name, what_counts(physics, task)))
+    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  return fmt::format("{:016x}", hash);
+}
+
+} // namespace capsule

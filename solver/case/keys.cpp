@@ -1,0 +1,158 @@
+#include "case/keys.hpp"
+#include "case/case.hpp"
+#include <algorithm>
+
+namespace capsule {
+namespace {
+
+// `Access` is a generic lambda that returns a reference into a Case, constant or not.
+template <class T, class Access>
+Member<T> member(Access /*at*/) {
+  return {[](Case &c) -> T & { return Access{}(c); }, [](const Case &c) -> const T & { return Access{}(c); }};
+}
+
+template <class E, class Access>
+Field choice(Access /*at*/, std::vector<std::string> names) {
+  return Choice{std::move(names), [](Case &c, int index) { Access{}(c) = static_cast<E>(index); },
+                [](const Case &c) { return static_cast<int>(Access{}(c)); }};
+}
+
+template <class Access>
+Field measured(Access at, Dimension dimension) {
+  return Measured{member<Quantity>(at), dimension};
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a member cannot stand in parentheses
+#define CAPSULE_AT(path)                                                                                     \
+  [](auto &c) -> auto & {                                                                                    \
+    return c.path;                                                                                           \
+  }
+// NOLINTEND(bugprone-macro-parentheses)
+
+// Of a motion alone: steady states do not depend on it.
+Key of_motion(Key key) {
+  key.steady = SteadyRole::none;
+  return key;
+}
+
+// In the equations of steady states, so that branches may go along it.
+Key parameter(Key key) {
+  key.steady = SteadyRole::parameter;
+  return key;
+}
+
+std::vector<Key> make_keys() {
+  const std::string of_accuracy = "from accuracy";
+  return {
+      {"title", "one line about the case", member<std::string>(CAPSULE_AT(title)), any_number,
+       "the case's name"},
+      {"paper", "item of the paper that the case replicates", member<std::string>(CAPSULE_AT(paper)),
+       any_number, "none"},
+      {"numerics", "preset: the best we have, or section 3 of the paper to the letter",
+       choice<Numerics>(CAPSULE_AT(numerics), {"standard", "paper"}), any_number},
+      {"accuracy", "relative error asked for", member<double>(CAPSULE_AT(accuracy)), from_to(1e-8, 1e-2)},
+
+      of_motion({"pore.shape", "hyperbolic mouth and tube; tube without a mouth; none: unbounded liquid",
+                 choice<PoreShape>(CAPSULE_AT(pore.shape), {"hyperbolic", "tube", "none"}), any_number,
+                 "hyperbolic; none with flow.type = \"extension\""}),
+      of_motion({"pore.opening_angle_deg", "opening angle of the mouth, alpha of eq. 1, degrees",
+                 member<double>(CAPSULE_AT(pore.opening_angle_deg)), above_up_to(0, 90)}),
+      of_motion({"pore.exit_x", "position of the exit section, L_P", member<double>(CAPSULE_AT(pore.exit_x)),
+                 above_up_to(0, 1000)}),
+      of_motion({"pore.entrance_distance", "distance of the entrance section, L_E",
+                 member<double>(CAPSULE_AT(pore.entrance_distance)), above_up_to(1, 1000)}),
+
+      parameter({"capsule.radius",
+                 "radius of the sphere of the same volume, R_eq; or physical.capsule_radius",
+                 member<double>(CAPSULE_AT(capsule.radius)), above_up_to(0, 10),
+                 "required; 1 with flow.type = \"extension\"", true}),
+      parameter({"capsule.aspect_ratio", "axial over radial semi-axis, A/B",
+                 member<double>(CAPSULE_AT(capsule.aspect_ratio)), from_to(0.01, 100)}),
+      of_motion({"capsule.start_x", "centre of the undeformed capsule at time 0",
+                 member<double>(CAPSULE_AT(capsule.start_x)), any_number,
+                 "-4; 0 with flow.type = \"extension\""}),
+
+      {"membrane.law", "law of the in-plane tensions, eqs. 4 and 5",
+       choice<LawName>(CAPSULE_AT(membrane.law), {"neo-hookean", "skalak"}), any_number, "required", true},
+      parameter({"membrane.dilatation", "C of Skalak's law, eq. 5",
+                 member<double>(CAPSULE_AT(membrane.dilatation)), above(-0.5)}),
+      parameter({"membrane.bending_ratio", "bending stiffness over G R_t^2, delta",
+                 member<double>(CAPSULE_AT(membrane.bending_ratio)), at_least(0)}),
+
+      {"flow.type", "given flow rate through the pore, or uniaxial extension of an unbounded liquid",
+       choice<FlowType>(CAPSULE_AT(flow.type), {"pore", "extension"}), any_number},
+      parameter({"flow.capillary_number", "epsilon = mu Q/(pi R_t^2 G); extension: mu e a/G",
+                 member<double>(CAPSULE_AT(flow.capillary_number)), above(0), "required", true}),
+      {"flow.viscosity_ratio", "internal over external viscosity, lambda",
+       member<double>(CAPSULE_AT(flow.viscosity_ratio)), from_to(1e-4, 1e4)},
+
+      {"mesh.membrane", "elements or nodes of the membrane, N_M", member<int>(CAPSULE_AT(mesh.membrane)),
+       from_to(4, 10000), of_accuracy + "; 60 with numerics = \"paper\""},
+      {"mesh.wall", "elements of the wall, N_B", member<int>(CAPSULE_AT(mesh.wall)), from_to(4, 10000),
+       of_accuracy + "; 120 with numerics = \"paper\""},
+      of_motion({"mesh.exit", "elements of the exit section, N_P", member<int>(CAPSULE_AT(mesh.exit)),
+                 from_to(2, 10000), "30 with numerics = \"paper\", otherwise without meaning"}),
+
+      of_motion({"time.scheme",
+                 "error-controlled BDF; explicit Euler or Runge-Kutta of order 4 with a given step",
+                 choice<Scheme>(CAPSULE_AT(time.scheme), {"bdf", "euler", "rk4"}), any_number,
+                 "bdf; euler with numerics = \"paper\""}),
+      of_motion({"time.step", "step of an explicit scheme", member<double>(CAPSULE_AT(time.step)), above(0),
+                 "2.5e-4 with time.scheme = \"euler\", required with \"rk4\""}),
+      of_motion({"time.tolerance", "absolute error of the nodes' positions in one step, in units of R_t",
+                 member<double>(CAPSULE_AT(time.tolerance)), from_to(1e-13, 1e-2), of_accuracy}),
+
+      of_motion({"until.x_g", "stop when the centre of mass is here",
+                 member<std::optional<double>>(CAPSULE_AT(until.x_g)), any_number,
+                 "11.84, unless until.time is given"}),
+      of_motion({"until.time", "stop at this time", member<std::optional<double>>(CAPSULE_AT(until.time)),
+                 above(0), "none"}),
+
+      {"physical.tube_radius", "R_t with its unit; with this section results come in SI units too",
+       measured(CAPSULE_AT(physical.tube_radius), dimension::length)},
+      {"physical.viscosity", "of the external liquid, mu",
+       measured(CAPSULE_AT(physical.viscosity), dimension::viscosity)},
+      {"physical.flow_rate", "Q", measured(CAPSULE_AT(physical.flow_rate), dimension::flow_rate)},
+      {"physical.pressure", "instead of Q: drop over the mouth and a tube of pore_length without a capsule",
+       measured(CAPSULE_AT(physical.pressure), dimension::pressure)},
+      {"physical.pore_length", "of the tube that the pressure drives the liquid through",
+       measured(CAPSULE_AT(physical.pore_length), dimension::length)},
+      {"physical.shear_modulus", "surface shear modulus, G",
+       measured(CAPSULE_AT(physical.shear_modulus), dimension::tension)},
+      {"physical.young_modulus", "instead of G: surface Young modulus at small strain, E_s",
+       measured(CAPSULE_AT(physical.young_modulus), dimension::tension)},
+      {"physical.bending_modulus", "D, instead of membrane.bending_ratio",
+       measured(CAPSULE_AT(physical.bending_modulus), dimension::energy)},
+      {"physical.capsule_radius", "of the sphere of the same volume, instead of capsule.radius",
+       measured(CAPSULE_AT(physical.capsule_radius), dimension::length)},
+      {"physical.internal_viscosity", "instead of flow.viscosity_ratio",
+       measured(CAPSULE_AT(physical.internal_viscosity), dimension::viscosity)},
+
+      of_motion({"output.profiles_at_x_g", "positions at which the profile is written",
+                 member<std::vector<double>>(CAPSULE_AT(output.profiles_at_x_g)), any_number, "none"}),
+      of_motion({"output.profiles_at_time", "times at which the profile is written",
+                 member<std::vector<double>>(CAPSULE_AT(output.profiles_at_time)), at_least(0), "none"}),
+  };
+}
+
+#undef CAPSULE_AT
+
+} // namespace
+
+const std::vector<Key> &keys() {
+  static const std::vector<Key> table = make_keys();
+  return table;
+}
+
+const Key *find_key(const std::string &name) {
+  const auto found = std::ranges::find(keys(), name, &Key::name);
+  return found == keys().end() ? nullptr : &*found;
+}
+
+void forget_spellings(Case &physics) {
+  for (const Key &key : keys())
+    if (const auto *measured = std::get_if<Measured>(&key.field))
+      measured->member.in(physics).written.clear();
+}
+
+} // namespace capsule

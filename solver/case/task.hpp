@@ -1,0 +1,13 @@
+#pragma once
+// What is computed of a case.
+#include <string>
+
+namespace capsule {
+
+// Its motion, or steady states, to which start, end and time steps mean nothing.
+struct Task {
+  bool motion = true;
+  std::string name = "run"; // with all its arguments: results of the same case are told apart by it
+};
+
+} // namespace capsule
