@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(what_would_follow_from_a_wrong_quantity_is_not_missed) {
     BOOST_TEST(contains(told, std::string("case.toml:") + message), told);
     BOOST_TEST(error_count(told) == 1, told);
   }
-  const std::string both = complaint(replaced(replaced(laboratory, "mPa.s", "mPas"), "nl/s", "nl/sec"));
+  const std::string both = complaint(replaced(replaced(laboratory, "mPa.s", "mPas"), "nl/s", "nl/ss"));
   BOOST_TEST(contains(both, "did you mean '1 mPa.s'? allowed: a viscosity such as '1 mPa.s' (or "));
   BOOST_TEST(contains(both, "did you mean '0.1 nl/s'? allowed: a flow rate such as "));
   BOOST_TEST(error_count(both) == 2);
