@@ -1,6 +1,7 @@
 // Time of what a step is made of, for Table 1's capsule at the mouth: assembly, velocity, Jacobian and its factors, a
 // whole step of each preset.
 #include "flow/flow.hpp"
+#include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include "scene/resolution.hpp"
 

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <stdexcept>
 
 namespace capsule {
 namespace {
@@ -188,15 +187,6 @@ Matrix local_hessians(const Membrane &membrane, const Vector &position) {
 
 } // namespace
 
-Sampling sample(const MeridianBasis &basis, const Vector &zeta, const Vector &weights) {
-  Sampling at{.zeta = zeta, .weights = weights, .even = {}, .odd = {}};
-  for (int derivative = 0; derivative <= 2; ++derivative) {
-    at.even[derivative] = basis.even(zeta, derivative);
-    at.odd[derivative] = basis.odd(zeta, derivative);
-  }
-  return at;
-}
-
 Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Vector &zeta,
                        const Vector &weights) {
   Membrane membrane{.law = {},
@@ -313,22 +303,6 @@ Matrix energy_hessian(const Membrane &membrane, const Vector &position) {
   hessian.bottomRightCorner(n, n) = block(r0, local_size, r0, local_size);
   hessian.bottomLeftCorner(n, n) = hessian.topRightCorner(n, n).transpose();
   return hessian;
-}
-
-Vector nodal_area(const Membrane &membrane, const Vector &position) {
-  if (membrane.basis.spline_degree != 0) {
-    throw std::invalid_argument("nodal loads need a spectral basis");
-  }
-  const Eigen::Index n = membrane.basis.size();
-  const Vector slope_x = membrane.at_nodes.even[1] * position.head(n);
-  const Vector slope_r = membrane.at_nodes.odd[1] * position.tail(n);
-  const Vector arc = (slope_x.array().square() + slope_r.array().square()).sqrt();
-  return two_pi * membrane.basis.weights.array() * position.tail(n).array() * arc.array();
-}
-
-Vector membrane_load(const Membrane &membrane, const Vector &position) {
-  return -energy_gradient(membrane, position).array() /
-         nodal_area(membrane, position).replicate(2, 1).array();
 }
 
 } // namespace capsule

@@ -1,20 +1,11 @@
 #pragma once
 // The membrane as an elastic body: its reference shape sampled on a quadrature along the meridian, its
-// strain, and the energy whose gradient is its load on the liquids.
+// strain, and the energy whose gradient is its load on the liquids (load.hpp).
 #include "case/case.hpp"
-#include "geometry/meridian.hpp"
+#include "geometry/sampling.hpp"
 #include "law/law.hpp"
 
 namespace capsule {
-
-// Points along the meridian where fields are sampled, and the matrices that take nodal values there.
-struct Sampling {
-  Vector zeta;
-  Vector weights; // integral over [0, pi] = sum weights f
-  Matrix even[3]; // value, first and second derivative in zeta; points x N
-  Matrix odd[3];
-};
-Sampling sample(const MeridianBasis &basis, const Vector &zeta, const Vector &weights);
 
 // The undeformed shape at the points of a sampling, from the same basis as the deformed one: without motion
 // there is no strain, whatever the resolution.
@@ -67,13 +58,5 @@ double elastic_energy(const Membrane &membrane, const Vector &position);
 Vector energy_gradient(const Membrane &membrane, const Vector &position);
 // d^2 W/dposition^2, 2N x 2N, symmetric.
 Matrix energy_hessian(const Membrane &membrane, const Vector &position);
-
-// Load on the liquids at the nodes of a spectral basis, eq. 7 in its weak form: 2N axial and radial
-// components per deformed area, scaled with G/R_t. Virtual work gives the integral of q against any
-// displacement; Gauss's rule on the nodes makes its mass matrix diagonal, q_j = -(dW/dposition_j)/(2 pi
-// weights_j r_j ds/dzeta_j). Throws std::invalid_argument for a spline basis.
-// The masses are nodal_area: the area that each node stands for.
-Vector nodal_area(const Membrane &membrane, const Vector &position);
-Vector membrane_load(const Membrane &membrane, const Vector &position);
 
 } // namespace capsule

@@ -3,6 +3,7 @@
 #include "flow/flow.hpp"
 #include "geometry/pore.hpp"
 #include "geometry/quadrature.hpp"
+#include "membrane/load.hpp"
 #include "paper/paper_system.hpp"
 #include "scene/resolution.hpp"
 #include <algorithm>
@@ -37,13 +38,6 @@ Vector place_in_flow(const Case &physics, Vector position) {
     x.array() -= x.mean();
   }
   return position;
-}
-
-// Energy gradient -> nodal load: Gauss quadrature makes the mass matrix diagonal (membrane_load in
-// membrane.hpp); the derivative keeps the area elements frozen like the mobility.
-Matrix load_jacobian(const Membrane &membrane, const Vector &position) {
-  const Vector masses = nodal_area(membrane, position).replicate(2, 1);
-  return (-masses.cwiseInverse()).asDiagonal() * energy_hessian(membrane, position);
 }
 
 // How close to the sections at the pore's ends a membrane may come; their flow is assumed to be Poiseuille's.
@@ -98,7 +92,8 @@ Dynamics standard_dynamics(const Case &physics) {
     return state;
   };
   dynamics.jacobian = [system, membrane, memory](const Vector &position) -> Matrix {
-    return system->mobility(system->interact(position), *memory) * load_jacobian(*membrane, position);
+    return system->mobility(system->interact(position), *memory) *
+           frozen_load_jacobian(*membrane, position, 1);
   };
   return dynamics;
 }

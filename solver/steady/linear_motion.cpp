@@ -1,4 +1,5 @@
 #include "steady/linear_motion.hpp"
+#include "membrane/load.hpp"
 #include <numbers>
 #include <utility>
 
@@ -8,7 +9,7 @@ namespace {
 // Shape and load f = q/eps at points of the meridian, from what they are at the nodes.
 struct Frame {
   const Sampling *at; // the points
-  Vector r, arc;
+  Trace curve;
   Vector tangent_x, tangent_r; // downstream; the normal is (-tangent_r, tangent_x)
   Vector turning;              // of the tangent, d alpha/dzeta
   Vector load_tangent, load_normal, load_tangent_zeta, load_normal_zeta;
@@ -18,12 +19,12 @@ Frame frame_at(const Sampling &at, const Vector &position, const Vector &load) {
   const Eigen::Index n = position.size() / 2;
   Frame frame;
   frame.at = &at;
-  frame.r = frame.at->odd[0] * position.tail(n);
-  const Eigen::ArrayXd x_zeta = frame.at->even[1] * position.head(n);
-  const Eigen::ArrayXd r_zeta = frame.at->odd[1] * position.tail(n);
+  frame.curve = trace(at, position);
+  const auto x_zeta = frame.curve.x_zeta.array();
+  const auto r_zeta = frame.curve.r_zeta.array();
   const Eigen::ArrayXd x_second = frame.at->even[2] * position.head(n);
   const Eigen::ArrayXd r_second = frame.at->odd[2] * position.tail(n);
-  const Eigen::ArrayXd arc = (x_zeta.square() + r_zeta.square()).sqrt();
+  const auto arc = frame.curve.arc.array();
   const Eigen::ArrayXd t_x = x_zeta / arc;
   const Eigen::ArrayXd t_r = r_zeta / arc;
   const Eigen::ArrayXd turning = (x_zeta * r_second - r_zeta * x_second) / arc.square();
@@ -33,7 +34,6 @@ Frame frame_at(const Sampling &at, const Vector &position, const Vector &load) {
   const Eigen::ArrayXd f_r_zeta = frame.at->odd[1] * load.tail(n);
   const Eigen::ArrayXd f_t = f_x * t_x + f_r * t_r;
   const Eigen::ArrayXd f_n = f_r * t_x - f_x * t_r;
-  frame.arc = arc;
   frame.tangent_x = t_x;
   frame.tangent_r = t_r;
   frame.turning = turning;
@@ -72,45 +72,20 @@ Matrix of_displacement(const Frame &frame, const Pointwise &map, int derivative)
   return result;
 }
 
-// Change of the area element r s' relative to it, points x 2N.
-Matrix area_change(const Frame &frame) {
-  const Eigen::Index n = frame.at->even[0].cols();
-  Matrix change(frame.r.size(), 2 * n);
-  change << (frame.tangent_x.array() / frame.arc.array()).matrix().asDiagonal() * frame.at->even[1],
-      (frame.tangent_r.array() / frame.arc.array()).matrix().asDiagonal() * frame.at->odd[1];
-  change.rightCols(n) += frame.r.cwiseInverse().asDiagonal() * frame.at->odd[0];
-  return change;
-}
-
-// Change of the nodal load in a displacement.
-Matrix nodal_load_change(const Membrane &membrane, const Vector &position, const Frame &at_nodes,
-                         const Vector &load, double capillary_number) {
-  const Eigen::Index n = membrane.basis.size();
-  const Vector mass = capillary_number * nodal_area(membrane, position);
-  Matrix change = -energy_hessian(membrane, position);
-  const Matrix area = area_change(at_nodes);
-  for (const Eigen::Index first : {Eigen::Index{0}, n}) {
-    auto rows = change.middleRows(first, n);
-    rows = mass.cwiseInverse().asDiagonal() * rows;
-    rows -= load.segment(first, n).asDiagonal() * area;
-  }
-  return change;
-}
-
 // f' of the head comment at points: the change of the load and of the area that it acts on, less the stress
 // of its jump on the strips that the displacement sweeps.
 Matrix carried_load_change(const Frame &frame, const Matrix &nodal_change, const Vector &load) {
-  const Eigen::Index points = frame.r.size();
+  const Eigen::Index points = frame.curve.r.size();
   const Eigen::Index n = frame.at->even[0].cols();
-  const Matrix area = area_change(frame);
+  const Matrix area = area_change(*frame.at, frame.curve);
   Matrix change(2 * points, 2 * n);
   change.topRows(points) = frame.at->even[0] * nodal_change.topRows(n);
   change.bottomRows(points) = frame.at->odd[0] * nodal_change.bottomRows(n);
   change.topRows(points) += (frame.at->even[0] * load.head(n)).asDiagonal() * area;
   change.bottomRows(points) += (frame.at->odd[0] * load.tail(n)).asDiagonal() * area;
 
-  const auto r = frame.r.array();
-  const auto arc = frame.arc.array();
+  const auto r = frame.curve.r.array();
+  const auto arc = frame.curve.arc.array();
   const auto f_t = frame.load_tangent.array();
   const auto f_n = frame.load_normal.array();
   // r [(f_t d_t - f_n d_n) t + (f_n d_t - f_t d_n) n] over r s', differentiated
@@ -130,7 +105,7 @@ Matrix carried_load_change(const Frame &frame, const Matrix &nodal_change, const
 
 // w of the head comment.
 Matrix slip(const Frame &frame) {
-  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(frame.r.size());
+  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(frame.curve.r.size());
   return of_displacement(frame, dyads(frame, none, frame.load_tangent, none, none), 0);
 }
 
@@ -147,15 +122,17 @@ Matrix beyond_nodes(const Frame &at_panels, const Matrix &panel_field, const Mat
 // d.grad u of the inner flow, which the shear inside, the velocity along the meridian and the constant
 // volume of the liquid tell.
 Matrix advance_of_inner_flow(const Frame &at_nodes, const Vector &shear, const Vector &velocity) {
-  const Eigen::Index n = at_nodes.r.size();
+  const Eigen::Index n = at_nodes.curve.r.size();
   const auto t_x = at_nodes.tangent_x.array();
   const auto t_r = at_nodes.tangent_r.array();
-  const Eigen::ArrayXd along_x = (at_nodes.at->even[1] * velocity.head(n)).array() / at_nodes.arc.array();
-  const Eigen::ArrayXd along_r = (at_nodes.at->odd[1] * velocity.tail(n)).array() / at_nodes.arc.array();
+  const Eigen::ArrayXd along_x =
+      (at_nodes.at->even[1] * velocity.head(n)).array() / at_nodes.curve.arc.array();
+  const Eigen::ArrayXd along_r =
+      (at_nodes.at->odd[1] * velocity.tail(n)).array() / at_nodes.curve.arc.array();
   const Eigen::ArrayXd along_t = along_x * t_x + along_r * t_r;
   const Eigen::ArrayXd along_n = along_r * t_x - along_x * t_r;
   const Eigen::ArrayXd across_t = shear.array() - along_n;
-  const Eigen::ArrayXd across_n = -along_t - velocity.tail(n).array() / at_nodes.r.array();
+  const Eigen::ArrayXd across_n = -along_t - velocity.tail(n).array() / at_nodes.curve.r.array();
   return of_displacement(at_nodes, dyads(at_nodes, along_t, across_t, along_n, across_n), 0);
 }
 
@@ -181,7 +158,7 @@ LinearMotion linear_motion(const FlowSystem &flow, const FlowSystem::Interaction
   const Vector load = membrane_load(membrane, position) / capillary_number;
   const Frame at_nodes = frame_at(membrane.at_nodes, position, load);
   const Frame at_panels = frame_at(panels, position, load);
-  const Matrix nodal_change = nodal_load_change(membrane, position, at_nodes, load, capillary_number);
+  const Matrix nodal_change = load_jacobian(membrane, position, capillary_number);
   const Matrix change = carried_load_change(at_nodes, nodal_change, load);
   const Matrix jump = slip(at_nodes);
 

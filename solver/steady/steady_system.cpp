@@ -1,5 +1,6 @@
 #include "steady/steady_system.hpp"
 #include "base/failure.hpp"
+#include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 // behind a capsule? (Section 2.2.2)
 #include "study.hpp"
 #include "flow/flow.hpp"
+#include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
 #include "scene/resolution.hpp"

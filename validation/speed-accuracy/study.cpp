@@ -8,6 +8,7 @@
 #include "study.hpp"
 #include "base/failure.hpp"
 #include "flow/flow.hpp"
+#include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/time_step.hpp"
 #include "scene/resolution.hpp"

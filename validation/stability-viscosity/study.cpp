@@ -3,6 +3,7 @@
 // entrances, and the pressure drop of one shape that no longer changes.
 #include "study.hpp"
 #include "flow/flow.hpp"
+#include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include "scene/resolution.hpp"
 #include <cmath>

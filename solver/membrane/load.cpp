@@ -1,0 +1,36 @@
+#include "membrane/load.hpp"
+#include <numbers>
+#include <stdexcept>
+
+namespace capsule {
+
+Vector nodal_area(const Membrane &membrane, const Vector &position) {
+  if (membrane.basis.spline_degree != 0)
+    throw std::invalid_argument("nodal loads need a spectral basis");
+  const Trace nodes = trace(membrane.at_nodes, position);
+  const Eigen::Index n = membrane.basis.size();
+  return 2 * std::numbers::pi * membrane.basis.weights.array() * position.tail(n).array() * nodes.arc.array();
+}
+
+Vector membrane_load(const Membrane &membrane, const Vector &position) {
+  return -energy_gradient(membrane, position).array() /
+         nodal_area(membrane, position).replicate(2, 1).array();
+}
+
+Matrix frozen_load_jacobian(const Membrane &membrane, const Vector &position, double capillary_number) {
+  const Vector mass = (capillary_number * nodal_area(membrane, position)).replicate(2, 1);
+  const Vector factor = -mass.cwiseInverse();
+  return factor.asDiagonal() * energy_hessian(membrane, position);
+}
+
+Matrix load_jacobian(const Membrane &membrane, const Vector &position, double capillary_number) {
+  const Eigen::Index n = membrane.basis.size();
+  const Vector load = membrane_load(membrane, position) / capillary_number;
+  const Matrix area = area_change(membrane.at_nodes, trace(membrane.at_nodes, position));
+  Matrix jacobian = frozen_load_jacobian(membrane, position, capillary_number);
+  jacobian.topRows(n) -= load.head(n).asDiagonal() * area;
+  jacobian.bottomRows(n) -= load.tail(n).asDiagonal() * area;
+  return jacobian;
+}
+
+} // namespace capsule
