@@ -78,8 +78,7 @@ struct Checks {
   // The undeformed capsule between the two end sections and inside the wall of eq. 1.
   void check_start() {
     const Case &c = physics;
-    const double half_length = c.capsule.radius * std::pow(c.capsule.aspect_ratio, 2.0 / 3);
-    const double half_width = c.capsule.radius / std::cbrt(c.capsule.aspect_ratio);
+    const auto [half_length, half_width] = extent(c.capsule);
     const double x_0 = c.capsule.start_x;
     const double back = x_0 - half_length, front = x_0 + half_length;
     if (back <= -c.pore.entrance_distance)
@@ -112,12 +111,11 @@ struct Checks {
 
   void check_end() {
     const Case &c = physics;
-    const double half_length = c.capsule.radius * std::pow(c.capsule.aspect_ratio, 2.0 / 3);
     if (c.until.x_g && *c.until.x_g <= c.capsule.start_x)
       chosen.complain({"until.x_g", "capsule.start_x"},
                       fmt::format("until.x_g = {} lies upstream of the start", number_text(*c.until.x_g)),
                       fmt::format("capsule.start_x is {}", number_text(c.capsule.start_x)));
-    if (c.until.x_g && *c.until.x_g + half_length >= c.pore.exit_x)
+    if (c.until.x_g && *c.until.x_g + extent(c.capsule).half_length >= c.pore.exit_x)
       chosen.complain({"until.x_g", "pore.exit_x", "capsule.radius"},
                       fmt::format("at until.x_g = {} the capsule would cross the exit section",
                                   number_text(*c.until.x_g)),

@@ -3,6 +3,7 @@
 // Q/(pi R_t^2), times with pi R_t^3/Q, pressures with mu Q/(pi R_t^3), tensions with G, bending moments with G R_t.
 // The keys of a case file are the names below, joined by dots: "pore.exit_x".
 #include "case/units.hpp"
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,15 @@ struct CapsuleSpec {
   double aspect_ratio = 1; // A/B
   double start_x = -4;
 };
+
+// Of the undeformed capsule, a spheroid: its half axes A along the axis of the pore and B across it.
+struct Extent {
+  double half_length, half_width;
+};
+inline Extent extent(const CapsuleSpec &capsule) {
+  const double half_width = capsule.radius / std::cbrt(capsule.aspect_ratio);
+  return {half_width * capsule.aspect_ratio, half_width};
+}
 
 struct MembraneSpec {
   LawName law = LawName::neo_hookean;

@@ -184,7 +184,7 @@ FlowSystem::FlowSystem(const Case &physics, const MeridianBasis &basis, const Fl
   }
   if (pore_ == PoreShape::none)
     return;
-  const Pore pore = make_pore(physics);
+  const Pore pore = make_pore(physics.pore);
   build_wall(pore);
   solve_empty_pore(pore);
 }

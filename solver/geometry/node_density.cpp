@@ -27,8 +27,8 @@ Eigen::ArrayXXd sines(const Eigen::ArrayXd &a, Eigen::Index waves) {
 
 // The angle as a function of zeta and its slope: zeta and an odd rest.
 struct AngleMap {
-  explicit AngleMap(const Membrane &membrane)
-      : rest(membrane.basis.odd_from_nodes * (membrane.node_angle - membrane.basis.nodes)) {}
+  AngleMap(const MeridianBasis &basis, const Vector &node_angle)
+      : rest(basis.odd_from_nodes * (node_angle - basis.nodes)) {}
   Eigen::ArrayXd value(const Eigen::ArrayXd &zeta) const {
     return zeta + (sines(zeta, rest.size() + 1).rightCols(rest.size()).matrix() * rest).array();
   }
@@ -65,12 +65,11 @@ Eigen::ArrayXd inverted(const Value &value, const Slope &slope, const Eigen::Arr
 }
 
 // Of a smooth density of nodes per angle the logarithm: coefficients of its cosines.
-Vector density_logarithm(const Membrane &membrane, const Vector &position) {
+Vector density_logarithm(const MeridianBasis &basis, const Vector &node_angle, const Vector &position) {
   constexpr double shortest_wave = 24; // about
   constexpr Eigen::Index waves = 64, points = 1024;
-  const MeridianBasis &basis = membrane.basis;
   const Eigen::Index n = basis.size();
-  const AngleMap map(membrane);
+  const AngleMap map(basis, node_angle);
   const Vector zeta = midpoints(points);
   const Eigen::ArrayXd slope = map.slope(zeta), bend = map.bend(zeta);
   const auto by_angle = [&](const Eigen::ArrayXd &first, const Eigen::ArrayXd &second) -> Eigen::ArrayXd {
@@ -110,27 +109,28 @@ Vector angles_of_density(const Vector &logarithm, const Vector &zeta) {
 
 } // namespace
 
-Vector suitable_angles(const Membrane &membrane, const Vector &position, const MeridianBasis &basis) {
-  const Vector logarithm = density_logarithm(membrane, position);
+Vector suitable_angles(const MeridianBasis &new_basis, const MeridianBasis &basis, const Vector &node_angle,
+                       const Vector &position) {
+  const Vector logarithm = density_logarithm(basis, node_angle, position);
   // The shape has no more waves than the nodes that it comes from: fewer tell which density resolves it best.
   const MeridianBasis fewer =
-      spectral_basis(std::max(3, static_cast<int>(0.6 * static_cast<double>(membrane.basis.size()))));
+      spectral_basis(std::max(3, static_cast<int>(0.6 * static_cast<double>(basis.size()))));
   double best = 0, least = std::numeric_limits<double>::infinity();
   for (const double strength : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     const Vector angles = angles_of_density(strength * logarithm, fewer.nodes);
-    const double unresolved = unresolved_part(fewer, at_angles(angles, membrane, position));
+    const double unresolved = unresolved_part(fewer, at_angles(angles, basis, node_angle, position));
     if (unresolved < least) {
       least = unresolved;
       best = strength;
     }
   }
-  return angles_of_density(best * logarithm, basis.nodes);
+  return angles_of_density(best * logarithm, new_basis.nodes);
 }
 
-Vector at_angles(const Vector &angles, const Membrane &membrane, const Vector &position) {
-  const MeridianBasis &basis = membrane.basis;
+Vector at_angles(const Vector &angles, const MeridianBasis &basis, const Vector &node_angle,
+                 const Vector &position) {
   const Eigen::Index n = basis.size();
-  const AngleMap map(membrane);
+  const AngleMap map(basis, node_angle);
   const Vector zeta = inverted([&](const Eigen::ArrayXd &a) { return map.value(a); },
                                [&](const Eigen::ArrayXd &a) { return map.slope(a); }, angles.array());
   Vector moved(2 * zeta.size());

@@ -1,18 +1,19 @@
 #pragma once
-// Nodes where a shape needs them, and shapes on other nodes. The nodes of a mesh are Gauss-Legendre colatitudes zeta,
-// which lie at angles of the undeformed spheroid (Membrane::node_angle) that any smooth odd function of zeta may give:
-// shapes keep their parities and the basis its exponential convergence. Here the angles follow from a shape: the nodes
-// are the denser, the larger its first and second derivatives in the angle are, in a fold of the rear above all.
+// Nodes where a shape needs them, and shapes on other nodes. The nodes zeta of a basis lie at angles of the undeformed
+// capsule (reference_shape.hpp). Here the angles follow from a shape: the nodes are the denser, the larger its first and
+// second derivatives in the angle are, in a fold of the rear above all. Positions are 2N.
 // Throws std::invalid_argument for fewer than three nodes.
-#include "membrane/membrane.hpp"
+#include "geometry/meridian.hpp"
 
 namespace capsule {
 
-// Angles for the nodes of a basis, that suit a position (2N, of the membrane's own nodes).
-Vector suitable_angles(const Membrane &membrane, const Vector &position, const MeridianBasis &basis);
+// Angles for the nodes of a new basis that suit a position, which is given on a basis with nodes at node_angle.
+Vector suitable_angles(const MeridianBasis &new_basis, const MeridianBasis &basis, const Vector &node_angle,
+                       const Vector &position);
 
-// Position, or a change of it, at the material points of other nodes on the same undeformed spheroid.
-Vector at_angles(const Vector &angles, const Membrane &membrane, const Vector &position);
+// Position, or a change of it, at the material points of other angles.
+Vector at_angles(const Vector &angles, const MeridianBasis &basis, const Vector &node_angle,
+                 const Vector &position);
 
 // Parts of the meridian in which the tangent turns by no more than given (radians), by halving of those between edges.
 Vector halved_edges(const MeridianBasis &basis, const Vector &position, const Vector &edges,

@@ -93,16 +93,16 @@ double right_angle_distance(double x, double r) {
 
 } // namespace
 
-Pore make_pore(const Case &physics) {
-  if (physics.pore.shape == PoreShape::none)
+Pore make_pore(const PoreSpec &spec) {
+  if (spec.shape == PoreShape::none)
     throw InputError("pore.shape = \"none\" has no wall");
-  const double degrees = physics.pore.opening_angle_deg;
+  const double degrees = spec.opening_angle_deg;
   if (!(degrees > 0 && degrees <= 90))
     throw InputError(fmt::format("pore.opening_angle_deg = {} is not in (0, 90]", degrees));
   Pore pore;
-  pore.shape = physics.pore.shape;
-  pore.exit_x = physics.pore.exit_x;
-  pore.entrance_distance = physics.pore.entrance_distance;
+  pore.shape = spec.shape;
+  pore.exit_x = spec.exit_x;
+  pore.entrance_distance = spec.entrance_distance;
   if (!(pore.exit_x > 0))
     throw InputError(fmt::format("pore.exit_x = {} is not positive", pore.exit_x));
   if (!(pore.entrance_distance > 1))

@@ -6,7 +6,7 @@
 //   + r^2 = L_E^2. The tangent is continuous at the lip, the curvature is not: it jumps from 0 to
 //   tan^2(alpha). With alpha = 90 degrees the hyperbola is the flat wall x = 0, r >= 1 and the lip a right
 //   angle. PoreShape::tube is the straight tube r = 1 from L_P to x = -L_E.
-#include "case/case.hpp"
+#include "case/parameters.hpp"
 
 namespace capsule {
 
@@ -19,7 +19,7 @@ struct Pore {
   double entrance_arc = 0;      // arc length of the whole wall
 };
 // Throws InputError for PoreShape::none, which has no wall, and for L_E or alpha out of range.
-Pore make_pore(const Case &physics);
+Pore make_pore(const PoreSpec &spec);
 
 struct WallPoint {
   double x, r;

@@ -1,4 +1,5 @@
 #include "membrane/membrane.hpp"
+#include "geometry/reference_shape.hpp"
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -85,10 +86,10 @@ Elasticity elasticity(const Membrane &membrane, const Strain &strain, double ben
   return {in_plane.w + 0.5 * couple.dot(bending), in_plane, couple(0), couple(1)};
 }
 
-ReferenceShape reference_shape_at(const Sampling &at, const Vector &reference) {
+UndeformedMeridian undeformed_at(const Sampling &at, const Vector &reference) {
   const LocalShapes shapes = local_shapes(at, reference);
   const Eigen::Index points = at.zeta.size();
-  ReferenceShape undeformed{Vector(points), Vector(points), Vector(points), Vector(points)};
+  UndeformedMeridian undeformed{Vector(points), Vector(points), Vector(points), Vector(points)};
   for (Eigen::Index i = 0; i < points; ++i) {
     const LocalVector shape = shapes.col(i);
     const Tangent tangent = tangent_of(shape);
@@ -113,7 +114,7 @@ struct Point {
 template <class Use>
 void at_each_point(const Membrane &membrane, const Vector &position, Use &&use) {
   const LocalShapes shapes = local_shapes(membrane.sampling, position);
-  const ReferenceShape &undeformed = membrane.reference_shape;
+  const UndeformedMeridian &undeformed = membrane.undeformed;
   for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
     const LocalVector shape = shapes.col(i);
     const double radius = undeformed.radius(i), arc = undeformed.arc(i);
@@ -187,33 +188,30 @@ Matrix local_hessians(const Membrane &membrane, const Vector &position) {
 
 } // namespace
 
-Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Vector &zeta,
-                       const Vector &weights) {
+Membrane make_membrane(const CapsuleSpec &capsule, const MembraneSpec &material, const MeridianBasis &basis,
+                       const Vector &zeta, const Vector &weights) {
   Membrane membrane{.law = {},
                     .bending_ratio = 0,
                     .basis = basis,
                     .node_angle = basis.nodes,
-                    .reference = Vector(2 * basis.size()),
+                    .reference = {},
                     .sampling = sample(basis, zeta, weights),
-                    .reference_shape = {},
+                    .undeformed = {},
                     .at_nodes = sample(basis, basis.nodes, basis.weights)};
-  take_physics(physics, membrane);
+  set_material(capsule, material, membrane);
   return membrane;
 }
 
-void take_physics(const Case &physics, Membrane &membrane) {
-  const double radius = physics.capsule.radius / std::cbrt(physics.capsule.aspect_ratio); // B
-  const double half_length = radius * physics.capsule.aspect_ratio;                       // A
-  const auto angle = membrane.node_angle.array();
-  membrane.law = {physics.membrane.law, physics.membrane.dilatation};
-  membrane.bending_ratio = physics.membrane.bending_ratio;
-  membrane.reference << -half_length * angle.cos(), radius * angle.sin();
-  membrane.reference_shape = reference_shape_at(membrane.sampling, membrane.reference);
+void set_material(const CapsuleSpec &capsule, const MembraneSpec &material, Membrane &membrane) {
+  membrane.law = {material.law, material.dilatation};
+  membrane.bending_ratio = material.bending_ratio;
+  membrane.reference = reference_position(capsule, membrane.node_angle);
+  membrane.undeformed = undeformed_at(membrane.sampling, membrane.reference);
 }
 
 MembraneState membrane_state(const Membrane &membrane, const Sampling &at, const Vector &position) {
   const Eigen::Index n = membrane.basis.size(), points = at.zeta.size();
-  const ReferenceShape undeformed = reference_shape_at(at, membrane.reference);
+  const UndeformedMeridian undeformed = undeformed_at(at, membrane.reference);
   const LocalShapes shapes = local_shapes(at, position);
   MembraneState state;
   state.x = at.even[0] * position.head(n);

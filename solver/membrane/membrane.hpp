@@ -1,15 +1,15 @@
 #pragma once
 // The membrane as an elastic body: its reference shape sampled on a quadrature along the meridian, its
 // strain, and the energy whose gradient is its load on the liquids (load.hpp).
-#include "case/case.hpp"
+#include "case/parameters.hpp"
 #include "geometry/sampling.hpp"
 #include "law/law.hpp"
 
 namespace capsule {
 
-// The undeformed shape at the points of a sampling, from the same basis as the deformed one: without motion
+// The undeformed meridian at the points of a sampling, from the same basis as the deformed one: without motion
 // there is no strain, whatever the resolution.
-struct ReferenceShape {
+struct UndeformedMeridian {
   Vector radius;                                    // R
   Vector arc;                                       // S' = dS/dzeta
   Vector curvature_meridional, curvature_azimuthal; // kappa^0
@@ -19,20 +19,20 @@ struct Membrane {
   MembraneLaw law;
   double bending_ratio = 0; // delta
   MeridianBasis basis;
-  Vector node_angle;              // where the nodes lie on the undeformed spheroid
-  Vector reference;               // undeformed position of the nodes, 2N, centred at x = 0
-  Sampling sampling;              // where the energy is integrated: no point at a pole
-  ReferenceShape reference_shape; // at the sampling's points
-  Sampling at_nodes;              // the nodes themselves, with the basis' weights
+  Vector node_angle;             // where the nodes lie on the undeformed shape, reference_shape.hpp
+  Vector reference;              // undeformed position of the nodes, 2N, centred at x = 0
+  Sampling sampling;             // where the energy is integrated: no point at a pole
+  UndeformedMeridian undeformed; // at the sampling's points
+  Sampling at_nodes;             // the nodes themselves, with the basis' weights
 };
 
-// A spheroid of semi-axes A (axial) and B with (A B^2)^(1/3) = capsule.radius; node j at X = -A cos(angle_j),
-// R = B sin(angle_j), with angle_j = zeta_j until another node_angle is set and take_physics called.
-Membrane make_membrane(const Case &physics, const MeridianBasis &basis, const Vector &zeta,
-                       const Vector &weights);
+// With the nodes at angles zeta; the energy is integrated at the given points.
+Membrane make_membrane(const CapsuleSpec &capsule, const MembraneSpec &material, const MeridianBasis &basis,
+                       const Vector &zeta, const Vector &weights);
 
-// The same membrane with the law, the bending stiffness and the undeformed shape of another case.
-void take_physics(const Case &physics, Membrane &membrane);
+// Gives the membrane another law and bending stiffness, and the undeformed shape of a capsule with its nodes at
+// node_angle.
+void set_material(const CapsuleSpec &capsule, const MembraneSpec &material, Membrane &membrane);
 
 // Strain, tensions (eqs. 2, 4, 5), curvatures (eq. 3) and moments (eq. 6) at given points, which may be
 // poles: there azimuthal and meridional quantities are the same.

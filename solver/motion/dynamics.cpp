@@ -3,6 +3,7 @@
 #include "flow/flow.hpp"
 #include "geometry/pore.hpp"
 #include "geometry/quadrature.hpp"
+#include "geometry/reference_shape.hpp"
 #include "membrane/load.hpp"
 #include "paper/paper_system.hpp"
 #include "scene/resolution.hpp"
@@ -14,15 +15,6 @@
 
 namespace capsule {
 namespace {
-
-// Angles at which the nodes lie on the undeformed spheroid. The rear of a flat one folds: there, from the equator
-// to half way to the upstream pole, its nodes are denser (at A/B = 0.28 up to 1.6 times), and at the front less dense
-// (1.7 times). A sphere's nodes stay where they are, because the front of a neo-Hookean one may stretch without bound.
-// The angle is a smooth odd function of zeta, so that shapes keep their parities and the basis its exponential
-// convergence.
-Vector clustered(const Vector &zeta, double clustering) {
-  return zeta.array() + clustering * (0.28 * (2 * zeta.array()).sin() - 0.42 * zeta.array().sin());
-}
 
 Vector start_position(const Membrane &membrane, double start_x) {
   Vector start = membrane.reference;
@@ -73,7 +65,7 @@ Dynamics standard_dynamics(const Case &physics) {
   const auto membrane = std::make_shared<const Membrane>(dynamics.membrane);
   std::optional<Pore> pore;
   if (physics.pore.shape != PoreShape::none)
-    pore = make_pore(physics);
+    pore = make_pore(physics.pore);
   const auto memory = std::make_shared<FlowSystem::Memory>();
   dynamics.forget = [memory] { *memory = {}; };
   dynamics.flow = [physics, system, membrane, pore, memory](const Vector &position) {
@@ -103,10 +95,11 @@ Dynamics paper_dynamics(const Case &physics) {
   const MeridianBasis basis = spline_basis(physics.mesh.membrane, cubic);
   const Panels elements = make_panels(Vector::LinSpaced(basis.size(), 0, std::numbers::pi), 5);
   Dynamics dynamics;
-  dynamics.membrane = make_membrane(physics, basis, elements.points, elements.weights);
+  dynamics.membrane =
+      make_membrane(physics.capsule, physics.membrane, basis, elements.points, elements.weights);
   dynamics.start = start_position(dynamics.membrane, physics.capsule.start_x);
   const auto system = std::make_shared<const PaperSystem>(make_paper_system(physics));
-  const Pore pore = make_pore(physics);
+  const Pore pore = make_pore(physics.pore);
   dynamics.flow = [system, pore](const Vector &position) {
     require_capsule(pore, position);
     return system->flow(position);
@@ -122,10 +115,11 @@ Dynamics paper_dynamics(const Case &physics) {
 
 Membrane standard_membrane(const Case &physics, const Resolution &resolution) {
   const MeridianBasis energy_rule = spectral_basis(resolution.energy_points);
-  Membrane membrane = make_membrane(physics, spectral_basis(resolution.membrane_nodes), energy_rule.nodes,
-                                    energy_rule.weights);
-  membrane.node_angle = clustered(membrane.basis.nodes, resolution.clustering);
-  take_physics(physics, membrane);
+  Membrane membrane =
+      make_membrane(physics.capsule, physics.membrane, spectral_basis(resolution.membrane_nodes),
+                    energy_rule.nodes, energy_rule.weights);
+  membrane.node_angle = clustered_angles(membrane.basis.nodes, resolution.clustering);
+  set_material(physics.capsule, physics.membrane, membrane);
   return membrane;
 }
 

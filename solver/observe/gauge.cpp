@@ -111,7 +111,7 @@ std::optional<Peak> entry_peak(const std::vector<SeriesRow> &series) {
 Gauge::Gauge(const Case &physics, const Membrane &membrane)
     : membrane_(membrane), panels_(integration_points(membrane.basis)), fine_(pole_to_pole(membrane.basis)) {
   if (physics.pore.shape != PoreShape::none)
-    pore_ = make_pore(physics);
+    pore_ = make_pore(physics.pore);
   initial_ = integrals(membrane_.reference);
   waves_ = waves_from_nodes(membrane_.basis.nodes);
 

@@ -1,4 +1,5 @@
 #include "paper/paper_load.hpp"
+#include "geometry/reference_shape.hpp"
 #include <cmath>
 #include <numbers>
 
@@ -82,13 +83,11 @@ PaperLoad make_paper_load(const Case &physics, int elements) {
   load.bending_ratio = physics.membrane.bending_ratio;
   load.even_coefficients = spline_coefficients(elements, 1).leftCols(elements + 1);
   load.odd_coefficients = spline_coefficients(elements, 2).leftCols(elements + 1);
-  const double radius = physics.capsule.radius / std::cbrt(physics.capsule.aspect_ratio); // B
-  Vector position(2 * (elements + 1));
-  for (Index j = 0; j <= elements; ++j) {
-    const double zeta = std::numbers::pi * static_cast<double>(j) / elements;
-    position(j) = -radius * physics.capsule.aspect_ratio * std::cos(zeta);
-    position(elements + 1 + j) = j % elements == 0 ? 0 : radius * std::sin(zeta);
-  }
+  Vector zeta(elements + 1);
+  for (Index j = 0; j <= elements; ++j)
+    zeta(j) = std::numbers::pi * static_cast<double>(j) / elements;
+  Vector position = reference_position(physics.capsule, zeta);
+  position(2 * elements + 1) = 0; // the pole lies on the axis to the last digit
   load.reference = spline_through(load, position);
   return load;
 }

@@ -423,7 +423,7 @@ Vector nodal_velocity(const Vector &solution, Index n) {
 PaperSystem make_paper_system(const Case &physics) {
   if (physics.flow.type != FlowType::pore || physics.pore.shape != PoreShape::hyperbolic)
     throw InputError("numerics = \"paper\" computes the flow through a hyperbolic pore only");
-  const Pore pore = make_pore(physics);
+  const Pore pore = make_pore(physics.pore);
   PaperSystem system;
   system.capillary_number = physics.flow.capillary_number;
   system.viscosity_ratio = physics.flow.viscosity_ratio;

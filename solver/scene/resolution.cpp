@@ -11,7 +11,7 @@ Resolution choose_resolution(const Case &physics) {
   // The rim of a flat spheroid folds more sharply than any part of a sphere, and one that is wider than the
   // tube rides closer to the wall: over panels that are too long the pressure drop oscillates.
   const double flatness = std::max(1.0, 1 / aspect);
-  const bool tight = physics.capsule.radius / std::cbrt(aspect) > 0.95;
+  const bool tight = extent(physics.capsule).half_width > 0.95;
   Resolution resolution;
   resolution.membrane_nodes =
       physics.mesh.membrane > 0

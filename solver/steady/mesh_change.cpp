@@ -59,10 +59,10 @@ std::shared_ptr<SteadySystem> system_on_mesh(const Case &input, int nodes, const
   const Membrane &membrane = state.system->membrane();
   const Vector position = state.unknowns.head(2 * state.system->nodes());
   const MeridianBasis basis = spectral_basis(nodes);
-  const Vector angles = suitable_angles(membrane, position, basis);
+  const Vector angles = suitable_angles(basis, membrane.basis, membrane.node_angle, position);
   Resolution resolution = resolution_of(input, nodes);
   resolution.flow.membrane_edges =
-      halved_edges(basis, at_angles(angles, membrane, position),
+      halved_edges(basis, at_angles(angles, membrane.basis, membrane.node_angle, position),
                    even_membrane_edges(basis, resolution.flow.membrane_panel), most_turning);
   return std::make_shared<SteadySystem>(input, resolution, angles);
 }
@@ -75,7 +75,8 @@ int finer_mesh(int nodes) {
 Vector moved_to(const SteadySystem &to, const SteadySystem &from, const Vector &unknowns) {
   const Eigen::Index others = unknowns.size() - 2 * from.nodes();
   Vector moved(2 * to.nodes() + others);
-  moved << at_angles(to.membrane().node_angle, from.membrane(), unknowns.head(2 * from.nodes())),
+  moved << at_angles(to.membrane().node_angle, from.membrane().basis, from.membrane().node_angle,
+                     unknowns.head(2 * from.nodes())),
       unknowns.tail(others);
   return moved;
 }

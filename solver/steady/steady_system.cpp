@@ -48,7 +48,7 @@ void SteadySystem::build_flow() {
 }
 
 void SteadySystem::set_parameters(const Case &physics) {
-  take_physics(physics, membrane_);
+  set_material(physics.capsule, physics.membrane, membrane_);
   centre_weights_ = nodal_area(membrane_, membrane_.reference);
   centre_weights_ /= centre_weights_.sum();
   scene_.capsule = physics.capsule;

@@ -21,13 +21,14 @@ inline Case capsule_case(double radius, double aspect_ratio, LawName law, double
 // Sampled on the Gauss colatitudes of 5/2 as many nodes.
 inline Membrane spectral_membrane(const Case &physics, int nodes) {
   const MeridianBasis dense = spectral_basis(nodes * 5 / 2);
-  return make_membrane(physics, spectral_basis(nodes), dense.nodes, dense.weights);
+  return make_membrane(physics.capsule, physics.membrane, spectral_basis(nodes), dense.nodes, dense.weights);
 }
 
 // Quintic splines, sampled in the same way: their shapes have kinks in the fourth derivative only.
 inline Membrane spline_membrane(const Case &physics, int elements) {
   const MeridianBasis dense = spectral_basis(elements * 4);
-  return make_membrane(physics, spline_basis(elements, 5), dense.nodes, dense.weights);
+  return make_membrane(physics.capsule, physics.membrane, spline_basis(elements, 5), dense.nodes,
+                       dense.weights);
 }
 
 inline std::vector<Case> all_laws(double bending_ratio) {

@@ -28,7 +28,8 @@ struct Body {
 
 Body body(const Case &physics, int nodes) {
   const MeridianBasis basis = spectral_basis(nodes);
-  const Membrane membrane = make_membrane(physics, basis, basis.nodes, basis.weights);
+  const Membrane membrane =
+      make_membrane(physics.capsule, physics.membrane, basis, basis.nodes, basis.weights);
   return {basis, membrane, Gauge(physics, membrane)};
 }
 

@@ -1,5 +1,6 @@
 // Nodes for a shape: the same points of the membrane wherever the nodes lie, and fewer nodes for a fold.
 #include "geometry/node_density.hpp"
+#include "geometry/reference_shape.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -9,23 +10,6 @@ using namespace capsule;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Membrane oblate_membrane(int nodes) {
-  Case physics;
-  physics.capsule.radius = 1;
-  physics.capsule.aspect_ratio = 0.4;
-  const MeridianBasis rule = spectral_basis(nodes + 8);
-  return make_membrane(physics, spectral_basis(nodes), rule.nodes, rule.weights);
-}
-
-Membrane with_angles(Membrane membrane, const Vector &angles) {
-  Case physics;
-  physics.capsule.radius = 1;
-  physics.capsule.aspect_ratio = 0.4;
-  membrane.node_angle = angles;
-  take_physics(physics, membrane);
-  return membrane;
-}
 
 // A sphere whose rear is pushed in: at the ring where it turns back, the tangent turns within a tenth of a radian.
 Vector folded(const Vector &angle) {
@@ -42,13 +26,11 @@ BOOST_AUTO_TEST_SUITE(node_density)
 
 // Ascending angles in (0, pi) for which the fold is resolved by several digits more than on even nodes.
 BOOST_AUTO_TEST_CASE(a_fold_gets_the_nodes) {
-  const Membrane fine = oblate_membrane(300);
-  const Vector position = folded(fine.basis.nodes);
-  const Vector angles = suitable_angles(fine, position, spectral_basis(100));
+  const MeridianBasis fine = spectral_basis(300), basis = spectral_basis(100);
+  const Vector angles = suitable_angles(basis, fine, fine.nodes, folded(fine.nodes));
   BOOST_TEST(angles[0] > 0);
   BOOST_TEST(angles[99] < pi);
   BOOST_TEST((angles.tail(99) - angles.head(99)).minCoeff() > 0);
-  const MeridianBasis basis = spectral_basis(100);
   const double even = unresolved_part(basis, folded(basis.nodes));
   const double suited = unresolved_part(basis, folded(angles));
   BOOST_TEST(suited < 0.01 * even);
@@ -56,22 +38,24 @@ BOOST_AUTO_TEST_CASE(a_fold_gets_the_nodes) {
 
 // Where nothing turns sharply nothing is won by uneven nodes: an ellipse in its own angle is one wave.
 BOOST_AUTO_TEST_CASE(an_ellipse_keeps_its_nodes) {
-  const Membrane membrane = oblate_membrane(40);
-  const Vector angles = suitable_angles(membrane, membrane.reference, spectral_basis(50));
-  BOOST_TEST((angles - spectral_basis(50).nodes).cwiseAbs().maxCoeff() < 1e-12);
+  const MeridianBasis basis = spectral_basis(40), more = spectral_basis(50);
+  const CapsuleSpec oblate{.radius = 1, .aspect_ratio = 0.4};
+  const Vector angles = suitable_angles(more, basis, basis.nodes, reference_position(oblate, basis.nodes));
+  BOOST_TEST((angles - more.nodes).cwiseAbs().maxCoeff() < 1e-12);
 }
 
 // To other nodes and back, and directly to the points of the shape itself.
 BOOST_AUTO_TEST_CASE(shapes_move_with_the_membrane) {
-  const Membrane even = oblate_membrane(240);
-  const Vector position = folded(even.basis.nodes);
-  const Membrane uneven =
-      with_angles(oblate_membrane(220), suitable_angles(even, position, spectral_basis(220)));
-  const Vector there = at_angles(uneven.node_angle, even, position);
-  const Vector back = at_angles(even.node_angle, uneven, there);
+  const MeridianBasis basis = spectral_basis(240), other = spectral_basis(220);
+  const Vector even = basis.nodes;
+  const Vector position = folded(even);
+  const Vector uneven = suitable_angles(other, basis, even, position);
+  const Vector there = at_angles(uneven, basis, even, position);
+  const Vector back = at_angles(even, other, uneven, there);
   BOOST_TEST((back - position).cwiseAbs().maxCoeff() < 1e-6);
-  const Vector undeformed = at_angles(even.node_angle, uneven, uneven.reference);
-  BOOST_TEST((undeformed - even.reference).cwiseAbs().maxCoeff() < 1e-10);
+  const CapsuleSpec oblate{.radius = 1, .aspect_ratio = 0.4};
+  const Vector undeformed = at_angles(even, other, uneven, reference_position(oblate, uneven));
+  BOOST_TEST((undeformed - reference_position(oblate, even)).cwiseAbs().maxCoeff() < 1e-10);
 }
 
 // On a circle the tangent turns as the parameter: halving pi twice leaves quarters.

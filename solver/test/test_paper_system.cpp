@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(load_does_the_work_of_the_energy) {
       zeta(q) = pi / elements * (static_cast<double>(element) + rule.nodes(q % 5));
       weights(q) = pi / elements * rule.weights(q % 5);
     }
-    const Membrane membrane = make_membrane(physics, basis, zeta, weights);
+    const Membrane membrane = make_membrane(physics.capsule, physics.membrane, basis, zeta, weights);
     Vector position(2 * (elements + 1)), displacement(2 * (elements + 1));
     for (Eigen::Index j = 0; j <= elements; ++j) {
       const double z = basis.nodes(j), c = std::cos(z), sine = j % elements == 0 ? 0 : std::sin(z);

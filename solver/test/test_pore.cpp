@@ -11,9 +11,7 @@ using namespace capsule;
 namespace {
 
 Pore pore_of_angle(double degrees) {
-  Case physics;
-  physics.pore.opening_angle_deg = degrees;
-  return make_pore(physics);
+  return make_pore({.opening_angle_deg = degrees});
 }
 
 } // namespace
@@ -120,18 +118,18 @@ BOOST_AUTO_TEST_CASE(distance_to_the_wall) {
 }
 
 BOOST_AUTO_TEST_CASE(straight_tube_and_bad_input) {
-  Case physics;
-  physics.pore.shape = PoreShape::tube;
-  const Pore tube = make_pore(physics);
+  PoreSpec spec;
+  spec.shape = PoreShape::tube;
+  const Pore tube = make_pore(spec);
   BOOST_CHECK_EQUAL(wall_point(tube, tube.entrance_arc).x, -30);
   BOOST_CHECK_EQUAL(wall_radius(tube, -10), 1);
   BOOST_CHECK_EQUAL(wall_distance(tube, -10, 0.75), 0.25);
-  physics.pore.shape = PoreShape::none;
-  BOOST_CHECK_THROW(make_pore(physics), InputError);
-  physics.pore.shape = PoreShape::hyperbolic;
-  physics.pore.opening_angle_deg = 91;
-  BOOST_CHECK_THROW(make_pore(physics), InputError);
-  physics.pore.opening_angle_deg = 78.5;
-  physics.pore.entrance_distance = 0.5;
-  BOOST_CHECK_THROW(make_pore(physics), InputError);
+  spec.shape = PoreShape::none;
+  BOOST_CHECK_THROW(make_pore(spec), InputError);
+  spec.shape = PoreShape::hyperbolic;
+  spec.opening_angle_deg = 91;
+  BOOST_CHECK_THROW(make_pore(spec), InputError);
+  spec.opening_angle_deg = 78.5;
+  spec.entrance_distance = 0.5;
+  BOOST_CHECK_THROW(make_pore(spec), InputError);
 }
