@@ -29,32 +29,32 @@ Case asked_for(const benchmark::State &state) {
 void assembly(benchmark::State &state) {
   const Case physics = asked_for(state);
   const Dynamics dynamics = make_dynamics(physics);
-  const FlowSystem system(physics, dynamics.membrane.basis, choose_resolution(physics).flow);
+  const FlowSystem system(physics, dynamics.scene->membrane.basis, choose_resolution(physics).flow);
   for ([[maybe_unused]] auto _ : state)
-    benchmark::DoNotOptimize(system.interact(dynamics.start));
+    benchmark::DoNotOptimize(system.interact(dynamics.scene->start));
 }
 
 void load(benchmark::State &state) {
   const Dynamics dynamics = make_dynamics(asked_for(state));
   for ([[maybe_unused]] auto _ : state)
-    benchmark::DoNotOptimize(membrane_load(dynamics.membrane, dynamics.start));
+    benchmark::DoNotOptimize(membrane_load(dynamics.scene->membrane, dynamics.scene->start));
 }
 
 void velocity(benchmark::State &state) {
   const Dynamics dynamics = make_dynamics(asked_for(state));
   for ([[maybe_unused]] auto _ : state)
-    benchmark::DoNotOptimize(dynamics.flow(dynamics.start));
+    benchmark::DoNotOptimize(dynamics.flow(dynamics.scene->start));
 }
 
 void jacobian(benchmark::State &state) {
   const Dynamics dynamics = make_dynamics(asked_for(state));
   for ([[maybe_unused]] auto _ : state)
-    benchmark::DoNotOptimize(dynamics.jacobian(dynamics.start));
+    benchmark::DoNotOptimize(dynamics.jacobian(dynamics.scene->start));
 }
 
 void factors(benchmark::State &state) {
   const Dynamics dynamics = make_dynamics(asked_for(state));
-  const Matrix matrix = dynamics.jacobian(dynamics.start);
+  const Matrix matrix = dynamics.jacobian(dynamics.scene->start);
   for ([[maybe_unused]] auto _ : state)
     benchmark::DoNotOptimize(matrix.partialPivLu());
 }
@@ -67,7 +67,7 @@ void paper_step(benchmark::State &state) {
   physics.mesh.exit = 30;
   const Dynamics dynamics = make_dynamics(physics);
   for ([[maybe_unused]] auto _ : state)
-    benchmark::DoNotOptimize(dynamics.flow(dynamics.start));
+    benchmark::DoNotOptimize(dynamics.flow(dynamics.scene->start));
 }
 
 const std::vector<std::vector<std::int64_t>> sizes{{64, 96}, {1, 5}};

@@ -3,15 +3,14 @@
 // velocity.
 #include "case/case.hpp"
 #include "flow/flow_state.hpp"
-#include "membrane/membrane.hpp"
-#include "scene/resolution.hpp"
+#include "scene/scene.hpp"
 #include <functional>
+#include <memory>
 
 namespace capsule {
 
 struct Dynamics {
-  Membrane membrane;
-  Vector start; // position of the nodes at t = 0
+  std::shared_ptr<const Scene> scene;
   // Throw NumericsFailure when the shape is no capsule in the pore any more.
   std::function<FlowState(const Vector &position)> flow;
   // The same with the second route to the pressure drop, and without a trace in later flows. Reports of regular
@@ -24,9 +23,6 @@ struct Dynamics {
   // alone.
   std::function<void()> forget;
 };
-
-// The membrane of the standard preset.
-Membrane standard_membrane(const Case &physics, const Resolution &resolution);
 
 // Builds what stays fixed: reference shape, matrices, the wall's factors and the empty pore's flow.
 Dynamics make_dynamics(const Case &physics);

@@ -71,8 +71,8 @@ public:
   March(const Case &physics, const Checkpoint &from, const Control &control, Part part,
         double roughest = wrinkle_roughness)
       : physics_(physics), control_(control), part_(part), roughest_(roughest),
-        dynamics_(make_dynamics(physics)), gauge_(physics, dynamics_.membrane), record_(from) {
-    const Vector &start = started() ? record_.position : dynamics_.start;
+        dynamics_(make_dynamics(physics)), gauge_(physics, dynamics_.scene->membrane), record_(from) {
+    const Vector &start = started() ? record_.position : dynamics_.scene->start;
     const bool by_position = physics.until.x_g.has_value();
     by_x_g_ = stations(gauge_.centre(start), row_spacing, physics.until.x_g, physics.output.profiles_at_x_g);
     const double end = physics.until.time.value_or(std::numeric_limits<double>::infinity());
@@ -84,8 +84,8 @@ public:
     Outcome outcome;
     try {
       if (!started()) {
-        record_.position = dynamics_.start;
-        record(0, dynamics_.start, {.value = 0, .profile = true, .regular = true, .end = false});
+        record_.position = dynamics_.scene->start;
+        record(0, dynamics_.scene->start, {.value = 0, .profile = true, .regular = true, .end = false});
       }
       outcome.status = physics_.time.scheme == Scheme::bdf ? run_bdf() : run_explicit();
     } catch (const NumericsFailure &failure) {

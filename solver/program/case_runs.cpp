@@ -6,7 +6,6 @@
 #include "output/results.hpp"
 #include "program/progress.hpp"
 #include "program/workers.hpp"
-#include "scene/resolution.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -335,25 +334,6 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
       results.size() == 1 ? "" : fmt::format(", {} of {}", unsteady, counted(results.size(), "run")),
       unsteady == 1 ? "" : "up to ", fastest,
       by_x_g ? "a larger until.x_g (with pore.exit_x)" : "a larger until.time");
-}
-
-double estimated_seconds(const Case &physics) {
-  const Resolution chosen = choose_resolution(physics);
-  // An entrance of the paper takes 1.6 units of time per length.
-  const double way = physics.until.x_g.value_or(11.84) - physics.capsule.start_x;
-  const double duration = std::min(1.6 * way, physics.until.time.value_or(1.6 * way));
-  if (physics.numerics == Numerics::paper) {
-    // Nearly all of a step is the LU decomposition of eq. 29.
-    const double unknowns = chosen.membrane_nodes + std::max(physics.mesh.wall, 120);
-    return duration / physics.time.step * 4e-3 * std::pow(unknowns / 180, 3);
-  }
-  const double size = std::pow(chosen.membrane_nodes / 96.0, 3);
-  if (physics.time.scheme != Scheme::bdf) {
-    const double stages = physics.time.scheme == Scheme::euler ? 1 : 4;
-    return 1.6 * stages * 3e-3 * size * duration / physics.time.step;
-  }
-  const double whole_entrance = physics.flow.viscosity_ratio == 1 ? 0.7 : 2;
-  return whole_entrance * std::pow(chosen.membrane_nodes / 64.0, 2) * duration / 25;
 }
 
 } // namespace capsule

@@ -57,7 +57,4 @@ RunState state_of(const RunInput &run, const RunOptions &options);
 // asked for, in the pore: what they end with is not the steady state to it. Empty if there are none.
 std::string unsteady_remark(const std::vector<RunResult> &results);
 
-// What a whole run costs on one core, from runs that were measured on one server: good to a factor of three.
-double estimated_seconds(const Case &physics);
-
 } // namespace capsule

@@ -15,6 +15,7 @@
 #include "output/tables.hpp"
 #include "program/case_runs.hpp"
 #include "program/progress.hpp"
+#include "scene/cost.hpp"
 #include "steady/branch.hpp"
 #include "steady/steady_state.hpp"
 #include <CLI/CLI.hpp>

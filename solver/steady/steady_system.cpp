@@ -1,7 +1,7 @@
 #include "steady/steady_system.hpp"
 #include "base/failure.hpp"
 #include "membrane/load.hpp"
-#include "motion/dynamics.hpp"
+#include "scene/scene.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +12,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 // Beyond the tips: the disturbance has fallen to 1e-9 there.
 constexpr double wall_beyond = 4.7;
+// A capsule fills the tube in a weak flow, and grows without bound in too strong a one.
+constexpr Advice advice{.at_the_wall = "try a larger flow.capillary_number",
+                        .at_the_end = "try a smaller flow.capillary_number"};
 
 // The wall and everything about the flow that no parameter changes. epsilon and lambda are one.
 Case scene_of(const Case &physics) {
@@ -31,7 +34,8 @@ double tube_for(double tip) {
 } // namespace
 
 SteadySystem::SteadySystem(const Case &physics, const Resolution &resolution, const Vector &node_angle)
-    : scene_(scene_of(physics)), resolution_(resolution), membrane_(standard_membrane(physics, resolution)) {
+    : scene_(scene_of(physics)), resolution_(resolution),
+      membrane_(standard_membrane(physics.capsule, physics.membrane, resolution)) {
   membrane_.node_angle = node_angle;
   set_parameters(physics);
   half_length_ = tube_for(membrane_.reference.head(nodes()).cwiseAbs().maxCoeff());
@@ -44,6 +48,8 @@ void SteadySystem::build_flow() {
   scene_.pore.exit_x = half_length_;
   scene_.pore.entrance_distance = half_length_;
   resolution_.flow.fine_half_length = half_length_ - wall_beyond;
+  if (scene_.pore.shape != PoreShape::none)
+    pore_ = make_pore(scene_.pore);
   flow_.emplace(scene_, membrane_.basis, resolution_.flow);
 }
 
@@ -95,22 +101,6 @@ double SteadySystem::admissible_step(const Vector &unknowns, const Vector &chang
   return step;
 }
 
-void SteadySystem::require_capsule(const Vector &position) const {
-  const auto r = position.tail(nodes());
-  if (!position.allFinite())
-    throw NumericsFailure("not-a-number", "the membrane's position is not a number",
-                          "try a finer mesh.membrane");
-  if (r.minCoeff() <= 0)
-    throw NumericsFailure("folded", "the membrane crosses the axis", "try a larger membrane.bending_ratio");
-  if (scene_.pore.shape == PoreShape::none)
-    return;
-  if (r.maxCoeff() >= 1)
-    throw NumericsFailure("touching", "the membrane touches the wall", "try a larger flow.capillary_number");
-  if (position.head(nodes()).cwiseAbs().maxCoeff() > half_length_ - 0.1)
-    throw NumericsFailure("exit", "the membrane is longer than any capsule",
-                          "try a smaller flow.capillary_number");
-}
-
 // Rows: centre and volume; columns: nodal positions.
 Eigen::Matrix<double, 2, Eigen::Dynamic> SteadySystem::constraint_slopes(const Vector &position) const {
   const Eigen::Index n = nodes();
@@ -146,7 +136,7 @@ Vector SteadySystem::equations(const Vector &unknowns, const Vector &velocity) c
 
 Vector SteadySystem::residual(const Vector &unknowns) const {
   const Vector position = unknowns.head(2 * nodes());
-  require_capsule(position);
+  require_capsule(pore_, position, advice);
   FlowSystem::Memory unused;
   const Vector load = membrane_load(membrane_, position) / capillary_number_;
   return equations(unknowns, flow_->flow(flow_->interact(position), load, unused).velocity);
@@ -155,7 +145,7 @@ Vector SteadySystem::residual(const Vector &unknowns) const {
 SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) const {
   const Eigen::Index n = nodes();
   const Vector position = unknowns.head(2 * n);
-  require_capsule(position);
+  require_capsule(pore_, position, advice);
   FlowSystem::Memory unused;
   const FlowSystem::Interaction shape = flow_->interact_in_full(position);
   const Vector load = membrane_load(membrane_, position) / capillary_number_;

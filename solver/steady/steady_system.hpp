@@ -10,7 +10,7 @@
 // and only as much wall is built as is left of it.
 // Throws NumericsFailure for shapes that are no capsule in the tube.
 #include "case/case.hpp"
-#include "scene/resolution.hpp"
+#include "scene/scene.hpp"
 #include "steady/linear_motion.hpp"
 #include <optional>
 
@@ -50,9 +50,9 @@ private:
   void build_flow();
   Vector equations(const Vector &unknowns, const Vector &velocity) const;
   Eigen::Matrix<double, 2, Eigen::Dynamic> constraint_slopes(const Vector &position) const;
-  void require_capsule(const Vector &position) const;
 
   Case scene_;
+  std::optional<Pore> pore_;
   Resolution resolution_;
   double capillary_number_ = 0;
   double volume_ = 0;

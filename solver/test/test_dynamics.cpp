@@ -21,7 +21,7 @@ Case mouth_case() {
 
 std::string failure_of(const Case &physics, const std::function<void(Vector &)> &change) {
   const Dynamics dynamics = make_dynamics(physics);
-  Vector position = dynamics.start;
+  Vector position = dynamics.scene->start;
   change(position);
   try {
     dynamics.flow(position);
@@ -43,8 +43,8 @@ BOOST_AUTO_TEST_CASE(presets_agree) {
     physics.flow.viscosity_ratio = viscosity_ratio;
     const auto first_row = [&] {
       const Dynamics dynamics = make_dynamics(physics);
-      const FlowState state = dynamics.report(dynamics.start, true);
-      SeriesRow row = Gauge(physics, dynamics.membrane).row(0, dynamics.start, state.velocity);
+      const FlowState state = dynamics.report(dynamics.scene->start, true);
+      SeriesRow row = Gauge(physics, dynamics.scene->membrane).row(0, dynamics.scene->start, state.velocity);
       row.pressure_drop = state.pressure_drop;
       return row;
     };

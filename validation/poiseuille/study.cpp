@@ -44,7 +44,7 @@ double at_tips(const std::string &directory) {
       read_case("cases/fig07-viscosity-sphere", {"flow.viscosity_ratio=1", "until.x_g=10"});
   const Case &physics = input.runs.at(0).physics;
   const Outcome outcome = march(physics, {}, {});
-  const Membrane membrane = make_dynamics(physics).membrane;
+  const Membrane membrane = make_scene(physics).membrane;
   const FlowSystem system(physics, membrane.basis, choose_resolution(physics).flow);
   const Vector &position = outcome.last.position;
   const FlowSystem::Interaction shape = system.interact(position);

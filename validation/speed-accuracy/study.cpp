@@ -137,7 +137,7 @@ struct Evaluation {
 
 Evaluation evaluation_on(const Case &physics, std::vector<Vector> shapes) {
   const Dynamics dynamics = make_dynamics(physics);
-  shapes.push_back(dynamics.start);
+  shapes.push_back(dynamics.scene->start);
   std::vector<double> seconds;
   double fastest = 0;
   for (const Vector &shape : shapes) {
@@ -211,7 +211,7 @@ std::vector<Point> paper_points(const Scene &scene) {
     point.history = run.history;
     point.failure = run.summary.failure;
     point.steps = steps_until_last(run.history, physics.time.step);
-    point.seconds = point.steps * seconds_of([&] { dynamics.flow(dynamics.start); });
+    point.seconds = point.steps * seconds_of([&] { dynamics.flow(dynamics.scene->start); });
     points.push_back(point);
   }
   std::ranges::sort(points, {}, &Point::nodes);
@@ -234,7 +234,7 @@ RunInput reference_run(const Scene &scene, const std::string &which, double node
 Table growth_with(const std::string &mesh, const std::string &column, const std::vector<int> &numbers) {
   const auto seconds = [](const Case &physics) {
     const Dynamics dynamics = make_dynamics(physics);
-    return seconds_of([&] { dynamics.flow(dynamics.start); });
+    return seconds_of([&] { dynamics.flow(dynamics.scene->start); });
   };
   Table table(column + ",lambda1,lambda5,paper");
   for (const int number : numbers) {
@@ -266,7 +266,7 @@ struct Shares {
 Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, double rows) {
   const Resolution resolution = choose_resolution(physics);
   const Dynamics dynamics = make_dynamics(physics);
-  const Membrane &membrane = dynamics.membrane;
+  const Membrane &membrane = dynamics.scene->membrane;
   const FlowSystem system(physics, membrane.basis, resolution.flow);
   const Gauge gauge(physics, membrane);
   Shares shares;
@@ -289,7 +289,7 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
                               return true;
                             }};
   const double began = cpu_seconds();
-  BdfIntegrator integrator(equations, 0, dynamics.start, resolution.time_tolerance);
+  BdfIntegrator integrator(equations, 0, dynamics.scene->start, resolution.time_tolerance);
   do
     integrator.step();
   while (gauge.centre(integrator.state_at(integrator.time())) < last_x_g);

@@ -56,8 +56,7 @@ Entrance enter(double capillary_number, double stiffness, int nodes, int shortes
   Case physics = entrance(capillary_number, stiffness, nodes);
   Outcome way = march(physics, {}, {});
   if (way.status == Status::reached) {
-    way.last.position =
-        dented(way.last.position, make_dynamics(physics).membrane.basis.nodes, shortest, deep);
+    way.last.position = dented(way.last.position, make_scene(physics).membrane.basis.nodes, shortest, deep);
     physics.until.x_g = last_x_g;
     for (int k = 1; mouth + 0.05 * k < last_x_g; ++k)
       physics.output.profiles_at_x_g.push_back(mouth + 0.05 * k);

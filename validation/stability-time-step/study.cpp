@@ -110,7 +110,7 @@ bool grows(const Dynamics &dynamics, Explicit scheme, const Vector &shape, doubl
     double difference = 0;
     for (int k = 1; k <= 2 * half; ++k) {
       const Vector undisturbed = plain();
-      difference = roughness(dynamics.membrane.basis, disturbed() - undisturbed);
+      difference = roughness(dynamics.scene->membrane.basis, disturbed() - undisturbed);
       if (k == half)
         before = difference;
       if (!(difference < 1e3 * seed.norm()))
@@ -220,7 +220,7 @@ std::vector<std::pair<double, double>> along_the_way(const std::string &director
     fmt::print("x_g = {:4g}: Euler's limit {:.3e}\n", x_g, way.back().second);
   };
   const Dynamics dynamics = make_dynamics(short_entrance(few, 0));
-  add(short_entrance(few, mouth).capsule.start_x, dynamics, dynamics.start);
+  add(short_entrance(few, mouth).capsule.start_x, dynamics, dynamics.scene->start);
   Checkpoint from;
   for (const double x_g : {-2.0, -1.0, 0.0, 1.0}) {
     from = march(short_entrance(few, x_g), from, {}).last;
@@ -239,7 +239,8 @@ bool report_on_the_way() {
   physics.flow.capillary_number = 0.1;
   physics.time.scheme = Scheme::euler;
   const Dynamics dynamics = make_dynamics(physics);
-  physics.time.step = 0.8 * stability_limit(Scheme::euler) / fastest(dynamics.jacobian(dynamics.start));
+  physics.time.step =
+      0.8 * stability_limit(Scheme::euler) / fastest(dynamics.jacobian(dynamics.scene->start));
   const Outcome outcome = march(physics, {}, {});
   const bool right = outcome.failure == "step" && outcome.last.series.back().x_g > -2;
   fmt::print("Skalak, R_eq = 1, euler, 0.8 of the limit at the start: {}: {}\n", right ? "right" : "WRONG",

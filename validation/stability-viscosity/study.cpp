@@ -31,7 +31,7 @@ struct Shape {
 
 Shape shape_of(const Case &physics) {
   const Resolution chosen = choose_resolution(physics);
-  return {spectral_basis(chosen.membrane_nodes), chosen.flow, make_dynamics(physics).membrane};
+  return {spectral_basis(chosen.membrane_nodes), chosen.flow, make_scene(physics).membrane};
 }
 
 FlowState flow_of(const FlowSystem &system, const Shape &shape, const Vector &position,

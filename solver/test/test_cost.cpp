@@ -1,0 +1,28 @@
+// What a run is expected to cost: in proportion to its duration, its steps and their stages.
+#include "scene/cost.hpp"
+#include <boost/test/unit_test.hpp>
+
+using namespace capsule;
+namespace tt = boost::test_tools;
+
+BOOST_AUTO_TEST_SUITE(cost)
+
+BOOST_AUTO_TEST_CASE(costs_grow_with_what_there_is_to_do) {
+  Case physics;
+  physics.capsule.radius = 0.8;
+  physics.until.time = 5;
+  const double standard = estimated_seconds(physics);
+  BOOST_TEST(standard > 0);
+  physics.until.time = 10;
+  BOOST_TEST(estimated_seconds(physics) == 2 * standard, tt::tolerance(1e-12));
+  physics.accuracy = 1e-5;
+  BOOST_TEST(estimated_seconds(physics) > 2 * standard);
+  physics.time = {.scheme = Scheme::euler, .step = 1e-3};
+  const double euler = estimated_seconds(physics);
+  physics.time.step = 5e-4;
+  BOOST_TEST(estimated_seconds(physics) == 2 * euler, tt::tolerance(1e-12));
+  physics.time.scheme = Scheme::rk4;
+  BOOST_TEST(estimated_seconds(physics) == 8 * euler, tt::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
