@@ -7,7 +7,7 @@
 //   of the one at a place (x_g or time); all points, or those at a place S
 // Throws FileError; NoValue ("no such run", "no value") where there is nothing.
 #include "compare/expression.hpp"
-#include "program/case_runs.hpp"
+#include "output/run_result.hpp"
 #include <map>
 #include <utility>
 

@@ -2,7 +2,7 @@
 // Bounds of a march's errors from its differences to a slightly coarser one (motion; what was weighed:
 // paper-notes/methods.md).
 #include "case/case.hpp"
-#include "observe/gauge.hpp"
+#include "observe/records.hpp"
 #include <map>
 #include <string>
 #include <vector>

@@ -3,64 +3,9 @@
 // What is computed depends on the case and the start alone: an interrupted march that goes on from its last
 // checkpoint gives the same numbers as one that was never interrupted.
 #include "case/case.hpp"
-#include "observe/gauge.hpp"
-#include <functional>
-#include <map>
-#include <string>
+#include "observe/outcome.hpp"
 
 namespace capsule {
-
-// A membrane stretched beyond is said to run away, in a march and on a branch of steady states.
-constexpr double runaway_stretch = 4;
-
-enum class Status { reached, steady, unbounded, failed, interrupted };
-
-// Everything needed to go on.
-struct Checkpoint {
-  double time = 0;
-  Vector position; // empty: not started
-  long steps = 0;
-  std::vector<SeriesRow> series;
-  std::vector<Profile> profiles;
-};
-
-// A steady state on a branch.
-struct BranchRow {
-  double parameter = 0;
-  SeriesRow row;
-  double growth_rate = 0; // of the least stable small motion
-};
-
-struct Outcome {
-  Status status = Status::failed;
-  std::string failure; // NumericsFailure::kind, empty when nothing failed
-  std::string message; // why it failed, where (t, x_g), what to try; empty otherwise
-  Checkpoint last;     // all that was computed
-  // quantity -> bound of the absolute error by estimate: "v_g" of the last row, "v_g@x_g" or "v_g@time" of all rows at
-  // the same x_g or time
-  std::map<std::string, double> error_estimate;
-  // Other quantities of summary.json.
-  std::map<std::string, double> further = {};
-  int membrane_nodes = 0; // 0: those of choose_resolution
-  // Only of a branch: the key that varies, its points and its folds.
-  std::string along = {};
-  std::vector<BranchRow> branch = {};
-  std::vector<BranchRow> folds = {};
-};
-
-// How the caller listens and interrupts.
-struct Control {
-  std::function<void(const SeriesRow &, long steps)> progress; // after each recorded row
-  std::function<void(const Checkpoint &)> save;                // at each point from which a march can go on
-  std::function<bool()> interrupted;                           // asked after each step
-};
-
-// Thrown where the caller has asked to stop.
-struct Interrupted {};
-inline void throw_if_interrupted(const Control &control) {
-  if (control.interrupted && control.interrupted())
-    throw Interrupted{};
-}
 
 Outcome march(const Case &physics, const Checkpoint &from, const Control &control);
 

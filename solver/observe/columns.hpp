@@ -1,7 +1,7 @@
 #pragma once
 // The columns of a run's tables, each declared once: its name and where its values are.
 #include "case/physical.hpp"
-#include "observe/gauge.hpp"
+#include "observe/records.hpp"
 #include <algorithm>
 #include <array>
 #include <string_view>

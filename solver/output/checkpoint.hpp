@@ -1,7 +1,7 @@
 #pragma once
 // checkpoint.json: everything from which an unfinished run goes on, bit by bit the same.
 // Every function throws FileError with the path and the system's reason.
-#include "motion/motion.hpp"
+#include "observe/outcome.hpp"
 #include <filesystem>
 #include <optional>
 #include <string>

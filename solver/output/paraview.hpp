@@ -1,7 +1,7 @@
 #pragma once
 // The profiles of a run as surfaces of revolution for ParaView, in VTK's XML: triangles with the stretches and tensions
 // at their corners, and the collection of all instants. Lengths are scaled with R_t, tensions with G.
-#include "observe/gauge.hpp"
+#include "observe/records.hpp"
 #include <string>
 #include <vector>
 

@@ -11,7 +11,7 @@
 //   checkpoint.json   while the run is not finished
 // Every function throws FileError with the path and the system's reason.
 #include "case/case_file.hpp"
-#include "motion/motion.hpp"
+#include "observe/outcome.hpp"
 #include "output/checkpoint.hpp"
 #include <filesystem>
 #include <string>

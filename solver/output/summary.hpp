@@ -1,7 +1,7 @@
 #pragma once
 // summary.json: the end of a run in one object, with its error estimates, its cost and its complete parameters.
 #include "case/case.hpp"
-#include "motion/motion.hpp"
+#include "observe/outcome.hpp"
 #include "output/checkpoint.hpp"
 #include <filesystem>
 #include <map>

@@ -3,7 +3,7 @@
 // instant, per point of a branch, per point of each profile. Numbers have the fewest digits that read back as the
 // same double.
 #include "case/case.hpp"
-#include "motion/motion.hpp"
+#include "observe/outcome.hpp"
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -3,10 +3,9 @@
 // goes on, the rest is computed, several at a time. A run's files are the same whatever happened on the way,
 // except for run.json and the seconds in summary.json.
 #include "case/case_file.hpp"
-#include "motion/motion.hpp"
-#include "output/summary.hpp"
+#include "observe/outcome.hpp"
+#include "output/run_result.hpp"
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace capsule {
@@ -28,12 +27,6 @@ struct RunOptions {
   bool on_a_terminal = false;
   double seconds_between_checkpoints = 0.5;
   std::function<bool()> stop = [] { return false; }; // asked after each step
-};
-
-struct RunResult {
-  RunInput input;
-  std::filesystem::path directory;
-  std::optional<Summary> summary; // none: interrupted
 };
 
 // directory/runs.txt: the directories of all runs, in the case's order and relative to that one; "." is a run

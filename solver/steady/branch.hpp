@@ -1,6 +1,7 @@
 #pragma once
 // The branch of a case's steady states along one of its keys, through folds.
-#include "motion/motion.hpp"
+#include "case/case.hpp"
+#include "observe/outcome.hpp"
 
 namespace capsule {
 

@@ -1,6 +1,6 @@
 #pragma once
 // A case's steady state from a profile: Newton's method from its shape, or from what that shape relaxes to.
-#include "motion/motion.hpp"
+#include "observe/outcome.hpp"
 #include "steady/mesh_change.hpp"
 
 namespace capsule {

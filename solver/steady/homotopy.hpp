@@ -1,7 +1,7 @@
 #pragma once
 // A case's steady state from nothing: branches (continuation.hpp) lead from a small stiff sphere in a weak flow to the
 // case's capsule, one key after the other, the capillary number last. The mesh gets finer on the way where it must.
-#include "motion/motion.hpp"
+#include "observe/outcome.hpp"
 #include "steady/mesh_change.hpp"
 
 namespace capsule {

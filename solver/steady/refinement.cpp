@@ -1,4 +1,5 @@
 #include "steady/refinement.hpp"
+#include "observe/gauge.hpp"
 #include "steady/growth_rates.hpp"
 #include <algorithm>
 #include <cmath>

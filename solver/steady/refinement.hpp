@@ -1,6 +1,6 @@
 #pragma once
 // A steady state on finer and finer meshes until its error is as small as asked for, and what is reported of it.
-#include "motion/motion.hpp"
+#include "observe/outcome.hpp"
 #include "steady/mesh_change.hpp"
 #include <map>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 // A checkpoint of random numbers of every magnitude, the same each time.
-#include "motion/motion.hpp"
+#include "observe/outcome.hpp"
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -5,6 +5,8 @@
 #include "study.hpp"
 #include "compare/comparison.hpp"
 #include "motion/dynamics.hpp"
+#include "motion/motion.hpp"
+#include "observe/gauge.hpp"
 #include "steady/growth_rates.hpp"
 #include "steady/mesh_change.hpp"
 #include "steady/steady_state.hpp"

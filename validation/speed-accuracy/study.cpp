@@ -10,7 +10,9 @@
 #include "flow/flow.hpp"
 #include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
+#include "motion/motion.hpp"
 #include "motion/time_step.hpp"
+#include "observe/gauge.hpp"
 #include "scene/resolution.hpp"
 #include <algorithm>
 #include <cmath>

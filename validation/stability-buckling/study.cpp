@@ -3,6 +3,7 @@
 // and the depth of the dents; and length and place of the first wrinkles of softer membranes.
 #include "study.hpp"
 #include "motion/dynamics.hpp"
+#include "motion/motion.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -2,6 +2,8 @@
 // same shape, which has no error of a march; the start by marches.
 #include "study.hpp"
 #include "motion/dynamics.hpp"
+#include "motion/motion.hpp"
+#include "observe/gauge.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 #include "study.hpp"
 #include "base/failure.hpp"
 #include "case/key_path.hpp"
+#include "motion/motion.hpp"
 #include "steady/continuation.hpp"
 #include "steady/mesh_change.hpp"
 #include "steady/steady_state.hpp"

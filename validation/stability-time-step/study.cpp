@@ -4,6 +4,7 @@
 #include "study.hpp"
 #include "base/failure.hpp"
 #include "motion/dynamics.hpp"
+#include "motion/motion.hpp"
 #include "motion/time_step.hpp"
 #include <array>
 #include <cmath>

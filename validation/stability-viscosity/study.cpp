@@ -5,6 +5,7 @@
 #include "flow/flow.hpp"
 #include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
+#include "motion/motion.hpp"
 #include "scene/resolution.hpp"
 #include <cmath>
 #include <fmt/format.h>

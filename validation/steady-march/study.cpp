@@ -1,6 +1,7 @@
 // Do steady shapes without marching agree with marches through a long tube? Capsules of both laws, spheres and
 // ellipsoids, soft and stiff shells.
 #include "study.hpp"
+#include "motion/motion.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
 #include <cmath>
