@@ -1,7 +1,12 @@
 #include "base/text.hpp"
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <fmt/format.h>
+#include <utf8.h>
 #include <vector>
 
 namespace capsule {
@@ -24,26 +29,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-// The character that a text begins with, and the number of its bytes.
-std::pair<char32_t, std::size_t> first_character(std::string_view text) {
-  constexpr std::pair<char32_t, std::size_t> none = {0xfffd, 1};
-  const auto lead = static_cast<unsigned char>(text[0]);
-  const std::size_t length = lead < 0x80 ? 1 : lead < 0xc0 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-  if (length == 0 || lead >= 0xf8 || text.size() < length)
-    return none;
-  char32_t character = length == 1 ? lead : lead & (0x7fu >> length);
-  for (const char c : text.substr(1, length - 1)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80 || byte >= 0xc0)
-      return none;
-    character = character << 6 | (byte & 0x3fu);
-  }
-  // Not longer than needed, no half of a pair of UTF-16, and not beyond the last one.
-  constexpr std::array<char32_t, 5> least = {0, 0, 0x80, 0x800, 0x10000};
-  const bool half = character >= 0xd800 && character < 0xe000;
-  return character < least.at(length) || half || character > 0x10ffff ? none : std::pair(character, length);
-}
-
 } // namespace
 
 std::string number_text(double value) {
@@ -59,13 +44,12 @@ std::string number_text(double value) {
 }
 
 std::optional<double> to_number(const std::string &text) {
-  std::size_t used = 0;
-  try {
-    const double value = std::stod(text, &used);
-    return used == text.size() ? std::optional(value) : std::nullopt;
-  } catch (const std::exception &) {
-    return std::nullopt;
-  }
+  char *end = nullptr;
+  errno = 0;
+  const double value = std::strtod(text.c_str(), &end);
+  const bool whole = !text.empty() && end == text.c_str() + text.size();
+  const bool too_large = errno == ERANGE && std::isinf(value);
+  return whole && !too_large ? std::optional(value) : std::nullopt;
 }
 
 std::string counted(std::size_t number, std::string_view what) {
@@ -93,25 +77,22 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
 }
 
 std::u32string decoded(std::string_view text) {
-  std::u32string characters;
-  while (!text.empty()) {
-    const auto [character, bytes] = first_character(text);
-    characters += character;
-    text.remove_prefix(bytes);
-  }
-  return characters;
+  return utf8::utf8to32(utf8::replace_invalid(text));
 }
 
 std::string encoded(std::u32string_view text) {
-  std::string bytes;
-  for (const char32_t c : text) {
-    const unsigned more = c < 0x80 ? 0 : c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
-    constexpr std::array<char32_t, 4> leads = {0, 0xc0, 0xe0, 0xf0};
-    bytes += static_cast<char>(leads.at(more) | c >> (6 * more));
-    for (unsigned i = more; i-- > 0;)
-      bytes += static_cast<char>(0x80 | (c >> (6 * i) & 0x3f));
-  }
-  return bytes;
+  return utf8::utf32to8(text);
+}
+
+std::optional<EncodingError> encoding_error(std::string_view bytes) {
+  if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
+    return EncodingError{0, "the text is in UTF-16; save it in UTF-8"};
+  if (const std::size_t zero = bytes.find('\0'); zero != std::string_view::npos)
+    return EncodingError{zero, "not a text file: byte 0"};
+  if (const std::size_t wrong = utf8::find_invalid(bytes); wrong != std::string_view::npos)
+    return EncodingError{wrong,
+                         fmt::format("not UTF-8: byte 0x{:02x}", static_cast<unsigned char>(bytes[wrong]))};
+  return std::nullopt;
 }
 
 bool is_printable(char32_t c) {
@@ -127,6 +108,13 @@ bool is_printable(char32_t c) {
                                                                     {0xe0000, 0xe0fff}}};
   return std::ranges::none_of(hidden,
                               [c](const auto &range) { return range.first <= c && c <= range.second; });
+}
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  for (const char32_t c : decoded(text))
+    shown += is_printable(c) ? encoded({&c, 1}) : fmt::format("\\u{:04x}", static_cast<std::uint32_t>(c));
+  return shown;
 }
 
 std::string_view last_component(std::string_view key) {

@@ -25,11 +25,19 @@ std::string trimmed(const std::string &text);
 // one letter off.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
-// UTF-8 as characters and back. A byte that belongs to none is U+FFFD, which reads back as that character.
+// UTF-8 as characters and back. Bytes that are not UTF-8 become U+FFFD, one for each broken sequence.
 std::u32string decoded(std::string_view text);
 std::string encoded(std::u32string_view text);
+// Why bytes are not a text in UTF-8, and the first byte that is wrong; nothing if they are one.
+struct EncodingError {
+  std::size_t byte = 0; // counted from 0
+  std::string message;
+};
+std::optional<EncodingError> encoding_error(std::string_view bytes);
 // Neither a command to the terminal, nor invisible, nor U+FFFD.
 bool is_printable(char32_t c);
+// With "\\u001b" for a character that is not printable.
+std::string printable(std::string_view text);
 
 // What follows the last dot of a key: "capillary_number" of "flow.capillary_number".
 std::string_view last_component(std::string_view key);

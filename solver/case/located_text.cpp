@@ -2,7 +2,6 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include <algorithm>
-#include <cstdint>
 #include <fmt/format.h>
 
 namespace capsule {
@@ -21,22 +20,14 @@ std::string excerpt(const std::u32string &line, const TextPlace &place) {
   return fmt::format("{:5} | {}\n      | {}^\n", place.line, encoded(shown), encoded(margin));
 }
 
-// What a file's own words may have brought into a message, without commands to the terminal.
-std::string without_controls(const std::string &text) {
-  std::string shown;
-  for (const char32_t c : decoded(text))
-    shown += is_printable(c) ? encoded({&c, 1}) : fmt::format("\\u{:04x}", static_cast<std::uint32_t>(c));
-  return shown;
-}
-
 std::string error_text(const LocatedError &error, const LocatedText::Source &source) {
   const TextPlace &place = error.place;
-  std::string text = fmt::format("{}:{}:{}: error: {}\n", source.label, place.line, place.column,
-                                 without_controls(error.message));
+  std::string text =
+      fmt::format("{}:{}:{}: error: {}\n", source.label, place.line, place.column, printable(error.message));
   if (place.line <= source.lines.size())
     text += excerpt(source.lines[place.line - 1], place);
   if (!error.hint.empty())
-    text += without_controls(error.hint) + "\n";
+    text += printable(error.hint) + "\n";
   return text;
 }
 

@@ -80,14 +80,11 @@ std::variant<std::string, Complaint> read_text(const fs::path &file) {
 }
 
 std::variant<toml::table, LocatedError> parse_toml(std::size_t source, const std::string &text) {
-  const std::u32string characters = characters_of(text);
-  if (const std::size_t zero = characters.find(U'\0'); zero != std::u32string::npos)
-    return LocatedError{place_at(source, characters, zero), "not a text file: byte 0", ""};
-  if (const auto [wrong, unused] = std::ranges::mismatch(text, encoded(decoded(text))); wrong != text.end()) {
-    const std::u32string before = characters_of({text.begin(), wrong});
-    return LocatedError{place_at(source, before, before.size()),
-                        fmt::format("not UTF-8: byte 0x{:02x}", static_cast<unsigned char>(*wrong)), ""};
+  if (const auto error = encoding_error(text)) {
+    const std::u32string before = characters_of(std::string_view(text).substr(0, error->byte));
+    return LocatedError{place_at(source, before, before.size()), error->message, ""};
   }
+  const std::u32string characters = characters_of(text);
   if (const std::size_t joined = find_joined(characters); joined != std::u32string::npos)
     return LocatedError{place_at(source, characters, joined),
                         "a joined line must begin with an ASCII character", ""};

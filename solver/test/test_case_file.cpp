@@ -235,9 +235,14 @@ BOOST_AUTO_TEST_CASE(characters_as_bytes) {
     BOOST_CHECK(decoded(encoded(text)) == text);
   BOOST_CHECK(decoded("\xc2\xb5\xe6\x97\xa5\xf0\x9f\x98\x80") == U"\u00b5\u65e5\U0001f600");
   // Cut short, too long for what it says, half of a pair, beyond the last, never a beginning, never alone.
-  for (const char *wrong : {"\xc3", "\xe6\x97", "\xc1\xbf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf",
-                            "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff", "\xf8\x88\x80\x80\x80", "\x80"})
-    BOOST_CHECK(decoded(wrong) == std::u32string(std::strlen(wrong), U'\ufffd'));
+  for (const std::string wrong :
+       {"\xc3", "\xe6\x97", "\xc1\xbf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf", "\xed\xa0\x80",
+        "\xf4\x90\x80\x80", "\xff", "\xf8\x88\x80\x80\x80", "\x80"}) {
+    const std::u32string shown = decoded("a" + wrong + "\nb");
+    BOOST_CHECK(shown.starts_with(U"a\ufffd") && shown.ends_with(U"\nb"));
+    BOOST_CHECK(shown.find_first_not_of(U'\ufffd', 1) == shown.size() - 2);
+    BOOST_TEST(encoding_error("\xc2\xb5" + wrong).value().byte == 2u);
+  }
   BOOST_CHECK(decoded("\xe6z") == U"\ufffdz");
 }
 
@@ -384,6 +389,8 @@ BOOST_AUTO_TEST_CASE(not_toml) {
   check_errors(sphere + "[mesh\n", {"9:"});
   check_errors("paper = \"\xc3\xa9\xff\"\n" + sphere, {"1:11: error: not UTF-8: byte 0xff"});
   check_errors("\xef\xbb\xbfpaper = \"\xc3\n" + sphere, {"1:10: error: not UTF-8: byte 0xc3"});
+  for (const char *mark : {"\xff\xfe", "\xfe\xff"})
+    check_errors(mark + std::string("t\0=\0", 4), {"1:1: error: the text is in UTF-16; save it in UTF-8"});
   // What the parser cannot be trusted with.
   check_errors(sphere + "viscosity_ratio = 5 um\n", {"9:21: error:"});
   check_errors(sphere + "viscosity_ratio = 5 \u00b5m\n", {"9:21: error:"});
