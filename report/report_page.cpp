@@ -4,9 +4,9 @@
 // results are taken from figures/<id>/, tables/<id>.csv and results/<id>/, as `make figures` and `make atlas` leave
 // them. What a directory has not computed yet is left out. The page's frame, style and player lie beside this file.
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 #include "base/text.hpp"
 #include "case/case_file.hpp"
-#include "compare/run_values.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,13 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string read_file(const fs::path &file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 // The files of a directory with this ending, by name; none if there is no such directory.
 std::vector<fs::path> files_of(const fs::path &directory, const std::string &ending) {
   std::vector<fs::path> files;
@@ -43,12 +36,6 @@ std::vector<fs::path> files_of(const fs::path &directory, const std::string &end
         files.push_back(entry.path());
   std::ranges::sort(files);
   return files;
-}
-
-std::vector<std::vector<std::string>> read_table(const fs::path &csv) {
-  std::vector<std::vector<std::string>> rows;
-  std::ranges::transform(capsule::read_lines(csv), std::back_inserter(rows), capsule::split_csv);
-  return rows;
 }
 
 std::string escaped(const std::string &text) {
@@ -80,7 +67,7 @@ std::string marked(const std::string &text, const std::string &mark, const std::
 
 // A caption's Markdown: a paragraph with **strong** words and `code`; its pictures are placed elsewhere.
 std::string caption(const fs::path &markdown) {
-  std::istringstream lines(read_file(markdown));
+  std::istringstream lines(capsule::read_file(markdown));
   std::string text;
   for (std::string line; std::getline(lines, line);)
     if (!line.starts_with("!["))
@@ -115,21 +102,22 @@ std::string table_cell(const std::string &column, const std::string &text) {
 
 // Of a file's columns those that are named, in this order, or all.
 std::string table(const fs::path &csv, const std::vector<std::string> &wanted = {}) {
-  const auto rows = read_table(csv);
+  const std::vector<capsule::CsvRow> rows = capsule::read_csv(csv);
+  const std::vector<std::string> names = rows.empty() ? std::vector<std::string>() : rows[0].fields;
   std::vector<std::size_t> columns;
-  columns.reserve(rows.front().size());
+  columns.reserve(names.size());
   for (const std::string &name : wanted)
-    columns.push_back(static_cast<std::size_t>(std::ranges::find(rows.front(), name) - rows.front().begin()));
-  for (std::size_t k = 0; wanted.empty() && k < rows.front().size(); ++k)
+    columns.push_back(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
+  for (std::size_t k = 0; wanted.empty() && k < names.size(); ++k)
     columns.push_back(k);
   std::string html = "<div class=\"table\" tabindex=\"0\"><table>\n<thead><tr>";
   for (const std::size_t k : columns)
-    html += fmt::format("<th scope=\"col\">{}</th>", escaped(rows.front().at(k)));
+    html += fmt::format("<th scope=\"col\">{}</th>", escaped(names.at(k)));
   html += "</tr></thead>\n<tbody>\n";
   for (std::size_t i = 1; i < rows.size(); ++i) {
     html += "<tr>";
     for (const std::size_t k : columns)
-      html += table_cell(rows.front()[k], rows[i].at(k));
+      html += table_cell(names.at(k), rows[i].fields.at(k));
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
@@ -148,7 +136,7 @@ std::string question(const fs::path &directory) {
   const fs::path readme = directory / "README.md";
   if (!fs::exists(readme))
     return escaped(directory.filename());
-  const std::string line = capsule::read_lines(readme).at(0);
+  const std::string text = capsule::read_file(readme), line = text.substr(0, text.find('\n'));
   return marked(escaped(line.substr(line.find_first_not_of("# "))), "`", "code");
 }
 
@@ -162,7 +150,7 @@ std::string chapter(const fs::path &directory) {
     html +=
         fmt::format("<figure><img alt=\"{}\" "
                     "srcset=\"data:image/svg+xml;base64,{} 0.67x\">\n<figcaption>{}</figcaption></figure>\n",
-                    escaped(picture.stem()), base64(read_file(picture)), text);
+                    escaped(picture.stem()), base64(capsule::read_file(picture)), text);
   }
   if (const fs::path csv = fs::path("tables") / (id + ".csv"); fs::exists(csv))
     html += fmt::format("<details><summary>Computed against published values</summary>\n{}</details>\n",
@@ -194,7 +182,7 @@ std::vector<fs::path> finished_runs(const std::vector<fs::path> &cases) {
           found.push_back(entry.path().parent_path());
     std::ranges::sort(found);
     for (const fs::path &run : found) {
-      const Json origin = Json::parse(read_file(run / "run.json"));
+      const Json origin = Json::parse(capsule::read_file(run / "run.json"));
       if (origin.value("task", "run") == "run" && known.emplace(origin.at("identity"), run).second)
         runs.push_back(run);
     }
@@ -213,8 +201,8 @@ std::string provenance(const std::vector<fs::path> &runs) {
     html += fmt::format("<th scope=\"col\">{}</th>", name);
   html += "</tr></thead>\n<tbody>\n";
   for (const fs::path &run : runs) {
-    const Json summary = Json::parse(read_file(run / "summary.json"));
-    const Json origin = Json::parse(read_file(run / "run.json"));
+    const Json summary = Json::parse(capsule::read_file(run / "summary.json"));
+    const Json origin = Json::parse(capsule::read_file(run / "run.json"));
     const Json &estimates = summary.at("error_estimate");
     std::vector<std::string> cells = {run_name(run), summary.at("status"), summary.at("steps").dump(),
                                       fmt::format("{:.1f}", summary.at("cpu_seconds").get<double>()),
@@ -308,7 +296,7 @@ std::string player_data(const std::vector<fs::path> &runs) {
     Json frames = Json::array();
     for (std::size_t k = 0; k + 1 < bounds.size(); ++k)
       frames.push_back(player_frame(profiles, bounds[k], bounds[k + 1]));
-    const Json parameters = Json::parse(read_file(run / "summary.json")).at("parameters");
+    const Json parameters = Json::parse(capsule::read_file(run / "summary.json")).at("parameters");
     const Json &title = parameters.at("title");
     const capsule::Columns series = capsule::read_columns(run / "series.csv");
     played.push_back(
@@ -349,14 +337,14 @@ void write_page(const fs::path &page, const std::vector<fs::path> &directories) 
   const std::vector<fs::path> runs = finished_runs(directories);
   const fs::path source = REPORT_SOURCE;
   const std::string html =
-      filled(read_file(source / "page.html"), {{"style", read_file(source / "style.css")},
-                                               {"script", read_file(source / "player.js")},
-                                               {"ledger", ledger()},
-                                               {"tables", paper_tables()},
-                                               {"cases", of_the_paper + others},
-                                               {"studies", studies},
-                                               {"provenance", provenance(runs)},
-                                               {"player", player_data(runs)}});
+      filled(capsule::read_file(source / "page.html"), {{"style", capsule::read_file(source / "style.css")},
+                                                        {"script", capsule::read_file(source / "player.js")},
+                                                        {"ledger", ledger()},
+                                                        {"tables", paper_tables()},
+                                                        {"cases", of_the_paper + others},
+                                                        {"studies", studies},
+                                                        {"provenance", provenance(runs)},
+                                                        {"player", player_data(runs)}});
   capsule::write_atomically(page, html);
 }
 

@@ -110,6 +110,20 @@ expect 2 "^--set:1:25: error: physical.capsule_radius: '4 s' is a time, not a le
   "$capsule" show physical.toml --set 'physical.capsule_radius=4 s'
 rm physical.toml
 
+# What a case expects, as a spreadsheet may save it.
+mkdir bad
+echo "$good" >bad/case.toml
+rows='id;run;quantity;expected;allowed;reason
+a;;v_g;1,3;0,1 %;'
+echo "$rows" >bad/expected.csv
+expect 2 '^bad/expected.csv:1:1: error: semicolons' "$capsule" check bad
+echo "$rows" | tr ';' ',' | iconv -t UTF-16 >bad/expected.csv
+expect 2 '^bad/expected.csv:1:1: error: the text is in UTF-16' "$capsule" check bad
+expect 2 '^save it as CSV in UTF-8 with commas' "$capsule" check bad
+echo "$good" | iconv -t UTF-16 >bad/case.toml
+expect 2 '^bad/case.toml:1:1: error: the text is in UTF-16; save it in UTF-8$' "$capsule" check bad
+rm -r bad
+
 expect 2 '^none:1:1: error: no such file' "$capsule" run none
 mkdir -p cases/prolate-c1
 echo "$good" >cases/prolate-c1/case.toml

@@ -1,6 +1,6 @@
 #include "study.hpp"
 #include "base/failure.hpp"
-#include "compare/run_values.hpp"
+#include "base/csv.hpp"
 #include "motion/motion.hpp"
 #include "program/workers.hpp"
 #include <algorithm>

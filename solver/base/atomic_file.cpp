@@ -4,6 +4,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fstream>
+#include <sstream>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -59,6 +61,17 @@ Temporary open_temporary(const fs::path &file) {
 
 void fail_at(std::string_view what, const fs::path &path, int error) {
   throw FileError(fmt::format("{} '{}': {}", what, path.string(), std::strerror(error)));
+}
+
+std::string read_file(const fs::path &file) {
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream bytes;
+  if (stream && stream.peek() != std::ifstream::traits_type::eof())
+    bytes << stream.rdbuf();
+  if (!stream.is_open() || stream.bad())
+    fail_at("cannot read", file, errno);
+  return bytes.str();
 }
 
 void make_directories(const fs::path &directory) {

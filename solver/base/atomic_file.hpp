@@ -5,6 +5,7 @@
 // Every function throws FileError with the path and the system's reason.
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace capsule {
 // Throws: "cannot write 'a/b.csv': No space left on device", of an error number of the system.
 [[noreturn]] void fail_at(std::string_view what, const std::filesystem::path &path, int error);
 
+// All bytes of a file.
+std::string read_file(const std::filesystem::path &file);
 void make_directories(const std::filesystem::path &directory);
 void write_atomically(const std::filesystem::path &file, std::string_view content);
 // As atomically: a hard link, or a copy where there can be none.

@@ -1,7 +1,7 @@
 #include "compare/comparison.hpp"
+#include "base/csv.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
-#include "case/located_text.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -119,35 +119,40 @@ std::string status_of(const Summary &summary) {
   return summary.status + (summary.failure.empty() ? "" : ":" + summary.failure);
 }
 
+std::vector<std::string> trimmed_fields(const CsvRow &row) {
+  std::vector<std::string> fields;
+  std::ranges::transform(row.fields, std::back_inserter(fields), trimmed);
+  return fields;
+}
+
 // The rows of a file with these columns; what has no column is taken from `blank`.
 std::vector<Expectation> read_table(const fs::path &table, std::span<const Column> columns,
                                     const Expectation &blank) {
-  std::vector<std::string> lines = read_lines(table);
-  if (!lines.empty()) // spreadsheets write a byte order mark
-    lines[0] = encoded(characters_of(lines[0]));
+  const std::vector<CsvRow> lines = read_csv(table);
   std::string errors;
   const auto complain = [&](std::size_t line, const std::string &message) {
-    errors += fmt::format("{}:{}:1: error: {}\n", table.string(), line + 1, message);
+    errors += csv_error(table, line, message);
   };
   std::vector<std::string> names;
   std::ranges::transform(columns, std::back_inserter(names), &Column::name);
-  const std::string header = fmt::format("{}", fmt::join(names, ","));
-  if (lines.empty() || trimmed(lines[0]) != header)
-    complain(0, fmt::format("the first line must be '{}'", header));
+  if (lines.empty() || trimmed_fields(lines[0]) != names)
+    complain(lines.empty() ? 1 : lines[0].line,
+             fmt::format("the first line must be '{}'", fmt::join(names, ",")));
   std::vector<Expectation> rows;
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> fields = split_csv(lines[i]);
+    const std::size_t line = lines[i].line;
+    const std::vector<std::string> fields = trimmed_fields(lines[i]);
     if (fields.size() != columns.size()) {
-      complain(i, fmt::format("{} fields instead of {}", fields.size(), columns.size()));
+      complain(line, fmt::format("{} instead of {}", counted(fields.size(), "field"), columns.size()));
       continue;
     }
     Expectation row = blank;
     for (std::size_t k = 0; k < columns.size(); ++k)
-      row.*columns[k].entry = trimmed(fields[k]);
+      row.*columns[k].entry = fields[k];
     if (const std::string mistake = mistake_of(row); !mistake.empty())
-      complain(i, mistake);
+      complain(line, mistake);
     if (std::ranges::find(rows, row.id, &Expectation::id) != rows.end())
-      complain(i, fmt::format("the id '{}' is there already", row.id));
+      complain(line, fmt::format("the id '{}' is there already", row.id));
     rows.push_back(std::move(row));
   }
   if (!errors.empty())
@@ -248,16 +253,6 @@ std::string verdict_against_record(const Comparison &c) {
   if (!c.sharp)
     return "ERROR TOO LARGE";
   return fmt::format("{}, NOT AS RECORDED", verdict_text(c.verdict));
-}
-
-std::string csv_field(const std::string &text) {
-  if (text.find_first_of(",\"\n") == std::string::npos)
-    return text;
-  std::string quoted(1, '"');
-  for (const char c : text)
-    quoted.append(c == '"' ? 2 : 1, c);
-  quoted.push_back('"');
-  return quoted;
 }
 
 } // namespace
@@ -371,10 +366,8 @@ std::string text_table(const std::vector<TextRow> &rows) {
 
 std::string csv_table(const std::vector<TextRow> &rows) {
   std::string text;
-  for (TextRow row : rows) {
-    std::ranges::transform(row, row.begin(), csv_field);
-    text += fmt::format("{}\n", fmt::join(row, ","));
-  }
+  for (const TextRow &row : rows)
+    text += csv_row(row);
   return text;
 }
 

@@ -4,11 +4,8 @@
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 #include <sstream>
 
 namespace capsule {
@@ -117,50 +114,6 @@ Values profile_values(const Columns &profiles, const Reference &reference) {
 }
 
 } // namespace
-
-std::vector<std::string> read_lines(const fs::path &file) {
-  errno = 0;
-  std::ifstream stream(file);
-  if (!stream)
-    throw FileError(fmt::format("cannot read '{}': {}", file.string(), std::strerror(errno)));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);)
-    lines.push_back(line);
-  return lines;
-}
-
-Columns read_columns(const fs::path &file) {
-  const std::vector<std::string> lines = read_lines(file);
-  const std::vector<std::string> names = split_csv(lines.empty() ? "" : lines[0]);
-  Columns columns;
-  for (const std::string &name : names)
-    columns[name] = {};
-  for (std::size_t i = 1; i < lines.size(); ++i)
-    try {
-      const std::vector<std::string> fields = split_csv(lines[i]);
-      for (std::size_t k = 0; k < names.size(); ++k)
-        columns[names[k]].push_back(std::stod(fields.at(k)));
-    } catch (const std::logic_error &) { // of stod or at
-      throw FileError(fmt::format("{}:{}: not {} numbers", file.string(), i + 1, names.size()));
-    }
-  return columns;
-}
-
-std::vector<std::string> split_csv(const std::string &line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
-      fields.back() += line[++i];
-    else if (line[i] == '"')
-      quoted = !quoted;
-    else if (line[i] == ',' && !quoted)
-      fields.emplace_back();
-    else if (line[i] != '\r')
-      fields.back() += line[i];
-  }
-  return fields;
-}
 
 Selector::Selector(const std::string &text) {
   if (trimmed(text).empty())

@@ -5,7 +5,8 @@
 //   a column of series.csv at a place                   x_g@time=18.7, min_film@x_g=-4..4
 //   a column of profiles.csv: of the last profile, or   r, tension_meridional@x_g=1@S=0
 //   of the one at a place (x_g or time); all points, or those at a place S
-// Throws FileError; NoValue ("no such run", "no value") where there is nothing.
+// Throws FileError and, of a table that cannot be used, InputError; NoValue ("no such run", "no value") where there is nothing.
+#include "base/csv.hpp"
 #include "compare/expression.hpp"
 #include "output/run_result.hpp"
 #include <map>
@@ -23,9 +24,6 @@ public:
 private:
   std::vector<std::pair<std::string, std::vector<std::string>>> wanted_;
 };
-
-// The columns of a CSV file, by name; numbers only.
-using Columns = std::map<std::string, Values>;
 
 // The runs of several cases. Files are read when first asked for.
 class RunTable {
@@ -58,11 +56,5 @@ private:
 // What stands between a reference's braces: "another-case", or nothing; the selector after it.
 std::optional<std::string> case_of(const Reference &reference);
 std::string runs_of(const Reference &reference);
-
-// Throws FileError, with the line that is not one number a name.
-Columns read_columns(const std::filesystem::path &file);
-// Fields between commas; a field may stand in double quotes, doubled inside.
-std::vector<std::string> split_csv(const std::string &line);
-std::vector<std::string> read_lines(const std::filesystem::path &file);
 
 } // namespace capsule

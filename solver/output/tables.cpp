@@ -1,14 +1,11 @@
 #include "output/tables.hpp"
-#include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/physical.hpp"
 #include "observe/columns.hpp"
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 #include <fmt/format.h>
-#include <fstream>
 
 namespace capsule {
 namespace {
@@ -92,39 +89,26 @@ std::string profiles_csv(const std::vector<Profile> &profiles) {
 
 Profile read_last_profile(const std::filesystem::path &directory) {
   const std::filesystem::path file = directory / "profiles.csv";
-  errno = 0;
-  std::ifstream stream(file);
-  std::string header, line;
-  if (!std::getline(stream, header))
-    fail_at("cannot read", file, errno != 0 ? errno : ENODATA);
-  if (header != profiles_header())
-    throw FileError(fmt::format("cannot use '{}': its columns are not those of a profile", file.string()));
-  constexpr std::size_t columns = 2 + profile_columns.size();
-  std::vector<std::array<double, columns>> rows;
-  while (std::getline(stream, line)) {
-    std::array<double, columns> row{};
-    const char *next = line.c_str();
-    for (double &value : row) {
-      char *end = nullptr;
-      value = std::strtod(next, &end);
-      if (end == next)
-        throw FileError(fmt::format("cannot use '{}': '{}' is no row of a profile", file.string(), line));
-      next = *end == ',' ? end + 1 : end;
-    }
-    if (!rows.empty() && (rows.back()[0] != row[0] || rows.back()[1] != row[1])) // of an earlier profile
-      rows.clear();
-    rows.push_back(row);
-  }
-  if (rows.empty())
-    throw FileError(fmt::format("cannot use '{}': no profile in it", file.string()));
+  const Columns columns = read_columns(file);
+  const auto values_of = [&](const char *name) -> const std::vector<double> & {
+    const auto found = columns.find(name);
+    if (found == columns.end())
+      throw InputError(csv_error(file, 1, fmt::format("there is no column '{}'", name)));
+    return found->second;
+  };
+  const std::vector<double> &time = values_of("time"), &x_g = values_of("x_g");
+  if (time.empty())
+    throw InputError(csv_error(file, 1, "no profile in it"));
+  std::size_t first = time.size(); // row of the last profile
+  while (first > 0 && time[first - 1] == time.back() && x_g[first - 1] == x_g.back())
+    --first;
   Profile profile;
-  profile.time = rows.back()[0];
-  profile.x_g = rows.back()[1];
-  for (std::size_t k = 0; k < profile_columns.size(); ++k) {
-    Vector &values = profile.*profile_columns.at(k).values;
-    values.resize(std::ssize(rows));
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      values[static_cast<Eigen::Index>(i)] = rows[i].at(k + 2);
+  profile.time = time.back();
+  profile.x_g = x_g.back();
+  for (const ProfileColumn &column : profile_columns) {
+    const std::vector<double> &values = values_of(column.name);
+    profile.*column.values =
+        Eigen::Map<const Vector>(values.data() + first, static_cast<Eigen::Index>(values.size() - first));
   }
   return profile;
 }

@@ -19,7 +19,7 @@ std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow
 std::string branch_csv(const Outcome &outcome);
 std::string profiles_csv(const std::vector<Profile> &profiles);
 
-// The last profile of a run's profiles.csv. Throws FileError.
+// The last profile of a run's profiles.csv. Throws as read_columns (csv.hpp), and InputError if there is none.
 Profile read_last_profile(const std::filesystem::path &directory);
 
 } // namespace capsule

@@ -1,6 +1,6 @@
 // Spheres in an unbounded uniaxial extension: deformation against capillary number for both laws, its slope from the
 // theory of small deformations, and where steady states end.
-#include "compare/run_values.hpp"
+#include "base/csv.hpp"
 #include "steady/branch.hpp"
 #include "steady/mesh_change.hpp"
 #include "steady/steady_state.hpp"

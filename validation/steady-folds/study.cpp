@@ -1,7 +1,7 @@
 // Up to which capillary number does a steady state exist? Folds of neo-Hookean capsules against size, shape and bending
 // stiffness on two meshes; the same search for Skalak's law.
+#include "base/csv.hpp"
 #include "base/failure.hpp"
-#include "compare/run_values.hpp"
 #include "steady/mesh_change.hpp"
 #include "steady/steady_state.hpp"
 #include "steady_folds.hpp"

@@ -1,0 +1,141 @@
+#include "base/csv.hpp"
+#include "base/atomic_file.hpp"
+#include "base/failure.hpp"
+#include "base/text.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <string_view>
+
+namespace capsule {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *how_to_save = "save it as CSV in UTF-8 with commas between the fields";
+
+struct Parsed {
+  std::vector<CsvRow> rows;   // blank ones, too
+  std::size_t open_quote = 0; // the line of a quote that is not closed; 0: none
+};
+
+Parsed parse(std::string_view text) {
+  Parsed parsed{{{1, {""}}}};
+  std::size_t line = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : '\0';
+    if (c == '\r' && next == '\n')
+      continue;
+    const bool line_end = c == '\n' || c == '\r';
+    line += line_end ? 1 : 0;
+    std::vector<std::string> &fields = parsed.rows.back().fields;
+    if (parsed.open_quote > 0 && c == '"' && next == '"')
+      fields.back() += text[++i];
+    else if (parsed.open_quote > 0 && c == '"')
+      parsed.open_quote = 0;
+    else if (parsed.open_quote > 0)
+      fields.back() += c;
+    else if (line_end)
+      parsed.rows.push_back({line, {""}});
+    else if (c == ',')
+      fields.emplace_back();
+    else if (c == '"' && trimmed(fields.back()).empty()) {
+      fields.back().clear();
+      parsed.open_quote = line;
+    } else
+      fields.back() += c;
+  }
+  return parsed;
+}
+
+bool is_blank(const CsvRow &row) {
+  return std::ranges::all_of(row.fields, [](const std::string &field) { return trimmed(field).empty(); });
+}
+
+// One field, and a semicolon or a tab in it: nobody names a column like that.
+bool has_other_separators(const CsvRow &names) {
+  return names.fields.size() == 1 && names.fields[0].find_first_of(";\t") != std::string::npos;
+}
+
+// Drops the empty fields behind the last column.
+void drop_empty_end(CsvRow &row, std::size_t columns) {
+  while (row.fields.size() > columns && trimmed(row.fields.back()).empty())
+    row.fields.pop_back();
+}
+
+std::string csv_field(const std::string &text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos)
+    return text;
+  std::string quoted(1, '"');
+  for (const char c : text)
+    quoted.append(c == '"' ? 2 : 1, c);
+  quoted.push_back('"');
+  return quoted;
+}
+
+} // namespace
+
+std::string csv_error(const fs::path &file, std::size_t line, const std::string &message) {
+  return fmt::format("{}:{}:1: error: {}\n", file.string(), line, printable(message));
+}
+
+std::vector<CsvRow> read_csv(const fs::path &file) {
+  std::string text = read_file(file);
+  const auto refuse = [&](std::size_t line, const std::string &message) {
+    throw InputError(csv_error(file, line, message) + how_to_save + '\n');
+  };
+  if (const auto error = encoding_error(text)) {
+    const std::string_view before = std::string_view(text).substr(0, error->byte);
+    refuse(1 + static_cast<std::size_t>(std::ranges::count(before, '\n')), error->message);
+  }
+  if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; text.starts_with(byte_order_mark))
+    text.erase(0, byte_order_mark.size());
+  auto [rows, open_quote] = parse(text);
+  if (open_quote > 0)
+    refuse(open_quote, "this quote is not closed");
+  std::erase_if(rows, is_blank);
+  if (!rows.empty() && has_other_separators(rows[0]))
+    refuse(rows[0].line, "semicolons or tabs stand between the fields");
+  for (CsvRow &row : rows)
+    drop_empty_end(row, &row == rows.data() ? 1 : rows[0].fields.size());
+  return rows;
+}
+
+Columns read_columns(const fs::path &file) {
+  const std::vector<CsvRow> rows = read_csv(file);
+  if (rows.empty())
+    return {};
+  const auto refuse = [&](const CsvRow &row, const std::string &message) {
+    throw InputError(csv_error(file, row.line, message));
+  };
+  const std::vector<std::string> &names = rows[0].fields;
+  std::vector<std::vector<double>> values(names.size());
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const std::vector<std::string> &fields = rows[i].fields;
+    if (fields.size() != names.size())
+      refuse(rows[i], fmt::format("{} instead of {}", counted(fields.size(), "field"), names.size()));
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const auto number = to_number(trimmed(fields[k]));
+      if (!number)
+        refuse(rows[i], fmt::format("'{}' in the column '{}' is not a number", fields[k], names[k]));
+      values[k].push_back(*number);
+    }
+  }
+  Columns columns;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (!columns.emplace(trimmed(names[k]), std::move(values[k])).second)
+      refuse(rows[0], fmt::format("there are two columns '{}'", names[k]));
+  return columns;
+}
+
+std::vector<std::string> split_csv(const std::string &line) {
+  return parse(line).rows[0].fields;
+}
+
+std::string csv_row(const std::vector<std::string> &fields) {
+  std::vector<std::string> written;
+  std::ranges::transform(fields, std::back_inserter(written), csv_field);
+  return fmt::format("{}\n", fmt::join(written, ","));
+}
+
+} // namespace capsule
