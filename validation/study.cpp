@@ -1,6 +1,6 @@
 #include "study.hpp"
-#include "base/failure.hpp"
 #include "base/csv.hpp"
+#include "base/failure.hpp"
 #include "motion/motion.hpp"
 #include "program/workers.hpp"
 #include <algorithm>
@@ -108,8 +108,8 @@ std::vector<std::string> make_all(const std::string &directory, unsigned jobs,
   };
   work.watch = [] {};
   work.finished = [](std::size_t, int) {};
-  Crew crew(tasks.size());
-  run_in_processes(work, crew);
+  SharedState shared(tasks.size());
+  run_in_processes(work, shared);
   std::vector<std::string> texts;
   for (const TextTask &task : tasks) {
     std::ifstream file(parts / task.name);

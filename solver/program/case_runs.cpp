@@ -1,5 +1,6 @@
 #include "program/case_runs.hpp"
 #include "base/atomic_file.hpp"
+#include "base/directory_lock.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/identity.hpp"
@@ -7,44 +8,21 @@
 #include "program/progress.hpp"
 #include "program/workers.hpp"
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <exception>
-#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fstream>
 #include <new>
 #include <sstream>
-#include <sys/file.h>
 #include <thread>
-#include <unistd.h>
 
 namespace capsule {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Held by one process for one run's directory; goes with the process, whatever its end.
-class DirectoryLock {
-public:
-  explicit DirectoryLock(const fs::path &directory)
-      : descriptor(open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {}
-  ~DirectoryLock() {
-    if (descriptor >= 0)
-      close(descriptor);
-  }
-  DirectoryLock(const DirectoryLock &) = delete;
-  DirectoryLock &operator=(const DirectoryLock &) = delete;
-
-  // Some network file systems have no locks: there nobody is kept out.
-  bool acquire() const { return flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; }
-
-private:
-  int descriptor;
-};
 
 double thread_seconds() {
   timespec time{};
@@ -56,7 +34,7 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Adds what this thread spends to what was spent before.
+// What was spent before, and what this thread has spent since.
 struct Stopwatch {
   Effort before;
   double cpu_at_start = thread_seconds();
@@ -78,20 +56,19 @@ fs::path home_of(const RunInput &run, const RunOptions &options) {
                               : options.pool / run_identity(run.physics, options.task);
 }
 
-// What lies in the pool is of this program; a directory that the user named holds what its input says.
+// Runs in the pool are matched by program and input, those in the user's directory by input alone.
 bool is_there(const RunInput &run, const RunOptions &options) {
   const fs::path home = home_of(run, options);
   return options.pool.empty() ? is_finished_input(home, run.physics, options.task)
                               : is_finished(home, run_identity(run.physics, options.task));
 }
 
-// What came of a run.
-enum Course { interrupted, computed, found };
+// How a run ended.
+enum RunEnd { interrupted, computed, found };
 
-std::string report(const RunResult &result, const std::string &case_name, Course course) {
+std::string report(const RunResult &result, const std::string &name, RunEnd end) {
   const Summary &summary = *result.summary;
-  std::string text =
-      fmt::format("{}: {}", result.input.name.empty() ? case_name : result.input.name, summary.status);
+  std::string text = fmt::format("{}: {}", name, summary.status);
   if (!summary.failure.empty())
     text += fmt::format(" ({})", summary.failure);
   const auto add = [&](const std::string &label, const char *quantity, int digits = 6) {
@@ -99,7 +76,7 @@ std::string report(const RunResult &result, const std::string &case_name, Course
       text += fmt::format("  {} {:.{}g}", label, value->second, digits);
   };
   if (!summary.along.empty())
-    add(summary.along, "time"); // which the key has taken the place of
+    add(summary.along, "time"); // on a branch the key takes the place of the time
   else if (summary.status != "steady") {
     add("t", "time");
     add("x_g", "x_g");
@@ -107,33 +84,32 @@ std::string report(const RunResult &result, const std::string &case_name, Course
   add("v_g", "v_g");
   add("pressure drop", "pressure_drop");
   add("CPU seconds", "cpu_seconds", 3);
-  return text +
-         fmt::format("{}  -> {}", course == found ? " (computed before)" : "", result.directory.string());
+  return text + fmt::format("{}  -> {}", end == found ? " (computed before)" : "", result.directory.string());
 }
 
-// One case's runs under way.
-struct Campaign {
+// The runs of one case while they are computed.
+struct CaseRuns {
   const CaseInput &input;
   const RunOptions &options;
-  const March &march;
+  const Method &method;
   ProgressLine line;
-  Crew crew;
+  SharedState shared;
   std::vector<RunResult> results;
 
-  Campaign(const CaseInput &input_, const RunOptions &options_, const March &march_)
-      : input(input_), options(options_), march(march_), line(options_.on_a_terminal),
-        crew(input_.runs.size()) {
+  CaseRuns(const CaseInput &input_, const RunOptions &options_, const Method &method_)
+      : input(input_), options(options_), method(method_), line(options_.on_a_terminal),
+        shared(input_.runs.size()) {
     for (const RunInput &run : input.runs)
       results.push_back({run, directory_of(run, options), std::nullopt});
   }
 
-  bool stops() const { return crew.stops() || options.stop(); }
+  bool stops() const { return shared.stops() || options.stop(); }
 
   bool wait_for(const DirectoryLock &lock, const RunInput &run) {
     for (bool told = false; !lock.acquire(); told = true) {
       if (!told)
         line.print(fmt::format("{}: another process computes this run or one in its place; waiting for it",
-                               run.name.empty() ? input.name : run.name));
+                               name_of(run, input)));
       if (stops())
         return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -141,13 +117,13 @@ struct Campaign {
     return true;
   }
 
-  // Two inputs, or methods, in one place: the first goes, and that is said.
+  // Says so if the results of another input or method are going to be replaced.
   void announce_replacement(const RunInput &run, const fs::path &place) {
     if (const std::string other = other_results(place, run.physics, options.task); !other.empty())
       line.print(fmt::format("{}: replaces {}", place.string(), other));
   }
 
-  Course march_in(const fs::path &home, std::size_t index) {
+  RunEnd compute_in(const fs::path &home, std::size_t index) {
     const RunInput &run = input.runs[index];
     const std::string identity = run_identity(run.physics, options.task);
     if (options.fresh)
@@ -162,10 +138,10 @@ struct Campaign {
     double written = wall_seconds();
     Control control;
     control.progress = [&](const SeriesRow &row, long steps) {
-      Crew::News &news = crew.news(index);
-      news.time = row.time;
-      news.x_g = row.x_g;
-      news.steps = steps;
+      Progress &progress = shared.progress(index);
+      progress.time = row.time;
+      progress.x_g = row.x_g;
+      progress.steps = steps;
     };
     control.interrupted = [&] {
       show_progress();
@@ -181,12 +157,12 @@ struct Campaign {
     const Checkpoint from = latest.checkpoint;
     const Outcome outcome = [&] {
       try {
-        return march(run.physics, from, control);
+        return method(run.physics, from, control);
       } catch (const std::bad_alloc &) {
         throw std::runtime_error(
             fmt::format("{}: not enough memory; try fewer elements (mesh.membrane, mesh.wall) or "
                         "a looser accuracy",
-                        run.name.empty() ? input.name : run.name));
+                        name_of(run, input)));
       }
     }();
     if (outcome.status == Status::interrupted) {
@@ -197,7 +173,7 @@ struct Campaign {
     return computed;
   }
 
-  Course compute_run(std::size_t index) {
+  RunEnd compute_run(std::size_t index) {
     const RunInput &run = input.runs[index];
     const fs::path home = home_of(run, options);
     make_directories(home);
@@ -207,36 +183,36 @@ struct Campaign {
     const bool there = !options.fresh && is_there(run, options);
     if (!there && home == results[index].directory)
       announce_replacement(run, home);
-    const Course course = there ? found : march_in(home, index);
+    const RunEnd end = there ? found : compute_in(home, index);
     if (there)
       remove_checkpoint(home); // of a process that was killed when it was nearly done
-    if (course == interrupted || home == results[index].directory)
-      return course;
+    if (end == interrupted || home == results[index].directory)
+      return end;
     make_directories(results[index].directory);
     const DirectoryLock place(results[index].directory);
     if (!wait_for(place, run))
       return interrupted;
     announce_replacement(run, results[index].directory);
     share_results(home, results[index].directory);
-    return course;
+    return end;
   }
 
   void show_progress() {
     for (std::size_t i = 0; i < results.size(); ++i)
-      if (const Crew::News &news = crew.news(i); news.steps > 0)
-        line.update(input.runs[i].name, input.runs[i].physics, news.time, news.x_g, news.steps);
+      if (const Progress &progress = shared.progress(i); progress.steps > 0)
+        line.update(input.runs[i].name, input.runs[i].physics, progress.time, progress.x_g, progress.steps);
   }
 
-  void finish(std::size_t index, Course course) {
-    crew.news(index).steps = 0;
+  void finish(std::size_t index, RunEnd end) {
+    shared.progress(index).steps = 0;
     line.finish(input.runs[index].name);
-    if (course == interrupted)
+    if (end == interrupted)
       return;
     results[index].summary = read_summary(home_of(input.runs[index], options));
-    if (!is_there(input.runs[index], options)) // neither may the summary be
+    if (!is_there(input.runs[index], options)) // then the summary may be another run's, too
       throw FileError(fmt::format("another process has overwritten '{}'; give each its own --out",
                                   results[index].directory.string()));
-    line.print(report(results[index], input.name, course));
+    line.print(report(results[index], name_of(input.runs[index], input), end));
   }
 
   void one_after_the_other() {
@@ -259,11 +235,11 @@ struct Campaign {
     };
     const auto watch = [&] {
       if (options.stop())
-        crew.stop();
+        shared.stop();
       show_progress();
     };
-    const auto finished = [&](std::size_t index, int course) { finish(index, static_cast<Course>(course)); };
-    run_in_processes({results.size(), options.jobs, task, watch, finished}, crew);
+    const auto finished = [&](std::size_t index, int end) { finish(index, static_cast<RunEnd>(end)); };
+    run_in_processes({results.size(), options.jobs, task, watch, finished}, shared);
   }
 };
 
@@ -276,19 +252,23 @@ void write_run_list(const CaseInput &input, const RunOptions &options) {
   const fs::path file = options.directory / "runs.txt";
   std::ostringstream present;
   present << std::ifstream(file).rdbuf();
-  if (present.str() == text) // perhaps where nothing can be written
+  if (present.str() == text) // then it need not be a place where files can be written
     return;
   make_directories(options.directory);
   write_atomically(file, text);
 }
 
-std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options, const March &march) {
-  Campaign campaign(input, options, march);
+std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options, const Method &method) {
+  CaseRuns runs(input, options, method);
   if (options.jobs > 1 && input.runs.size() > 1)
-    campaign.side_by_side();
+    runs.side_by_side();
   else
-    campaign.one_after_the_other();
-  return campaign.results;
+    runs.one_after_the_other();
+  return runs.results;
+}
+
+std::string name_of(const RunInput &run, const CaseInput &input) {
+  return run.name.empty() ? input.name : run.name;
 }
 
 RunState state_of(const RunInput &run, const RunOptions &options) {
@@ -305,35 +285,6 @@ RunState state_of(const RunInput &run, const RunOptions &options) {
   const std::vector<SeriesRow> &series = saved->checkpoint.series;
   return {false, "", series.empty() ? 0 : fraction_done(run.physics, series.back().time, series.back().x_g),
           saved->effort.cpu_seconds};
-}
-
-std::string unsteady_remark(const std::vector<RunResult> &results) {
-  std::size_t unsteady = 0;
-  double fastest = 0;
-  bool by_x_g = false;
-  for (const auto &[input, directory, summary] : results) {
-    if (!summary || summary->status != "reached")
-      continue;
-    const auto at_the_end = [&quantities = summary->quantities](const char *name) {
-      const auto found = quantities.find(name);
-      return found == quantities.end() ? 0 : found->second;
-    };
-    const double moving = std::max(at_the_end("max_axial_residual"), at_the_end("max_radial_velocity"));
-    const bool in_the_mouth = input.physics.pore.shape == PoreShape::hyperbolic && at_the_end("x_g") < 0;
-    if (moving <= input.physics.accuracy || in_the_mouth)
-      continue;
-    ++unsteady;
-    fastest = std::max(fastest, moving);
-    by_x_g = by_x_g || input.physics.until.x_g;
-  }
-  if (unsteady == 0)
-    return "";
-  return fmt::format(
-      "not steady yet{}: the membrane still moves with {}{:.2g} relative to its centre; {} leads nearer, "
-      "`capsule steady` finds the steady state",
-      results.size() == 1 ? "" : fmt::format(", {} of {}", unsteady, counted(results.size(), "run")),
-      unsteady == 1 ? "" : "up to ", fastest,
-      by_x_g ? "a larger until.x_g (with pore.exit_x)" : "a larger until.time");
 }
 
 } // namespace capsule

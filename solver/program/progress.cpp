@@ -27,7 +27,7 @@ void ProgressLine::update(const std::string &run, const Case &physics, double ti
     return;
   const Clock::time_point now = Clock::now();
   const double fraction = fraction_done(physics, time, x_g);
-  UnderWay &this_run = runs.try_emplace(run, UnderWay{now, fraction, 0, ""}).first->second;
+  Run &this_run = runs.try_emplace(run, Run{now, fraction, 0, ""}).first->second;
   const double seconds = std::chrono::duration<double>(now - this_run.began).count();
   const double gained = fraction - this_run.fraction_at_first;
   if (seconds < 1 || gained <= 0)

@@ -1,5 +1,5 @@
 #pragma once
-// One line on a terminal about the runs under way, and whole lines about those that are done.
+// Messages about the runs of a case: one line on a terminal that changes while they are computed, and lines that stay.
 #include "case/case.hpp"
 #include <chrono>
 #include <map>
@@ -7,7 +7,7 @@
 
 namespace capsule {
 
-// How much of the way from the start to the nearer end of the case lies behind: 0 ... 1.
+// The part of a run that is done, 0 to 1: of its time or its way, whichever ends sooner.
 double fraction_done(const Case &physics, double time, double x_g);
 
 // "12 s", "3 min", "2.5 h"
@@ -17,15 +17,15 @@ class ProgressLine {
 public:
   explicit ProgressLine(bool on_a_terminal) : shown(on_a_terminal) {}
 
-  // The run that takes longest is the one shown; nothing in a run's first second.
+  // Shows the run that will take longest. Nothing is shown in a run's first second.
   void update(const std::string &run, const Case &physics, double time, double x_g, long steps);
   void finish(const std::string &run);
-  // A whole line on standard output.
+  // Prints a line that stays, on standard output.
   void print(const std::string &line);
 
 private:
   using Clock = std::chrono::steady_clock;
-  struct UnderWay {
+  struct Run {
     Clock::time_point began;
     double fraction_at_first = 0;
     double seconds_left = 0;
@@ -37,7 +37,7 @@ private:
   bool shown;
   bool on_screen = false;
   Clock::time_point last_shown;
-  std::map<std::string, UnderWay> runs;
+  std::map<std::string, Run> runs;
 };
 
 } // namespace capsule

@@ -1,5 +1,6 @@
 #include "program/workers.hpp"
 #include "base/failure.hpp"
+#include "program/exit_code.hpp"
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -20,66 +21,75 @@
 namespace capsule {
 namespace {
 
-enum ExitCode { done = 0, input_error = 2, file_error = 4, other_error = 5 };
-
 void keep_text(const char *text, char (&place)[1000]) {
   std::strncpy(place, text, sizeof place - 1);
   place[sizeof place - 1] = '\0';
 }
 
-// The life of a child process.
-[[noreturn]] void work_on(std::size_t index, const Work &work, Crew &crew, pid_t parent) {
-  // Without its parent a child saves what it has.
+// All that a child process does.
+[[noreturn]] void work_on(std::size_t index, const Work &work, SharedState &shared, pid_t parent) {
+  // A child whose parent dies saves what it has and stops.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent)
-    crew.stop();
-  int code = done;
-  try {
-    crew.news(index).result = work.task(index);
-  } catch (const InputError &error) {
-    keep_text(error.what(), crew.news(index).error);
-    code = input_error;
-  } catch (const FileError &error) {
-    keep_text(error.what(), crew.news(index).error);
-    code = file_error;
-  } catch (const std::exception &error) {
-    keep_text(error.what(), crew.news(index).error);
-    code = other_error;
-  }
+    shared.stop();
+  Progress &progress = shared.progress(index);
+  const ExitCode code = [&] {
+    try {
+      progress.result = work.task(index);
+      return ExitCode::done;
+    } catch (const InputError &error) {
+      keep_text(error.what(), progress.error);
+      return ExitCode::bad_input;
+    } catch (const FileError &error) {
+      keep_text(error.what(), progress.error);
+      return ExitCode::files_failed;
+    } catch (const std::exception &error) {
+      keep_text(error.what(), progress.error);
+      return ExitCode::numerics_failed;
+    }
+  }();
   std::fflush(stdout);
-  _exit(code);
+  _exit(static_cast<int>(code));
 }
 
+// What a child's end, as `waitpid` tells it, means for its parent: nothing if it is done.
 std::exception_ptr failure_of(int status, const char *error) {
   if (WIFSIGNALED(status))
     return std::make_exception_ptr(std::runtime_error(fmt::format(
         "a run's process was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))));
-  if (WEXITSTATUS(status) == input_error)
+  switch (static_cast<ExitCode>(WEXITSTATUS(status))) {
+  case ExitCode::done:
+    return nullptr;
+  case ExitCode::bad_input:
     return std::make_exception_ptr(InputError(error));
-  if (WEXITSTATUS(status) == file_error)
+  case ExitCode::files_failed:
     return std::make_exception_ptr(FileError(error));
-  if (WEXITSTATUS(status) != done)
+  default:
     return std::make_exception_ptr(std::runtime_error(error));
-  return nullptr;
+  }
+}
+
+bool is_bad_input(int status) {
+  return WIFEXITED(status) && static_cast<ExitCode>(WEXITSTATUS(status)) == ExitCode::bad_input;
 }
 
 } // namespace
 
-Crew::Crew(std::size_t tasks) : bytes(sizeof(News) * (tasks + 1)) {
-  memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED)
+SharedState::SharedState(std::size_t tasks) : bytes_(sizeof(Progress) * (tasks + 1)) {
+  memory_ = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory_ == MAP_FAILED)
     throw std::bad_alloc();
-  slots = static_cast<News *>(memory);
-  std::uninitialized_value_construct_n(slots, tasks);
-  stopping = new (slots + tasks) std::atomic<bool>(false);
+  progress_ = static_cast<Progress *>(memory_);
+  std::uninitialized_value_construct_n(progress_, tasks);
+  stopping_ = new (progress_ + tasks) std::atomic<bool>(false);
 }
 
-Crew::~Crew() {
-  munmap(memory, bytes);
+SharedState::~SharedState() {
+  munmap(memory_, bytes_);
 }
 
-void run_in_processes(const Work &work, Crew &crew) {
-  // Where it is inherited as ignored, children vanish without a status.
+void run_in_processes(const Work &work, SharedState &shared) {
+  // Where the signal is inherited as ignored, children vanish without a status.
   std::signal(SIGCHLD, SIG_DFL);
   const pid_t parent = getpid();
   std::map<pid_t, std::size_t> children;
@@ -89,14 +99,14 @@ void run_in_processes(const Work &work, Crew &crew) {
     if (!first_failure)
       first_failure = std::move(failure);
     if (!of_this_task_alone)
-      crew.stop();
+      shared.stop();
   };
-  while (!children.empty() || (next < work.tasks && !crew.stops())) {
-    if (children.size() < work.jobs && next < work.tasks && !crew.stops()) {
+  while (!children.empty() || (next < work.tasks && !shared.stops())) {
+    if (children.size() < work.jobs && next < work.tasks && !shared.stops()) {
       std::fflush(stdout);
       const pid_t child = fork();
       if (child == 0)
-        work_on(next, work, crew, parent);
+        work_on(next, work, shared, parent);
       if (child > 0)
         children[child] = next++;
       else
@@ -113,14 +123,14 @@ void run_in_processes(const Work &work, Crew &crew) {
         ++child;
         continue;
       }
-      Crew::News &news = crew.news(child->second);
+      const Progress &progress = shared.progress(child->second);
       if (ended < 0)
         fail(std::make_exception_ptr(
             std::runtime_error(fmt::format("a run's process is lost: {}", std::strerror(errno)))));
-      else if (auto failure = failure_of(status, news.error))
-        fail(std::move(failure), WIFEXITED(status) && WEXITSTATUS(status) == input_error);
+      else if (auto failure = failure_of(status, progress.error))
+        fail(std::move(failure), is_bad_input(status));
       else
-        work.finished(child->second, news.result);
+        work.finished(child->second, progress.result);
       child = children.erase(child);
     }
   }

@@ -1,52 +1,52 @@
 #pragma once
-// Tasks in processes of their own, several at a time. Processes and not threads, because a serial build of
-// OpenBLAS keeps its work space in global memory: two threads in it spoil each other's numbers without a
-// sign.
+// Tasks in processes of their own, several at a time. Not in threads, because a serial build of OpenBLAS keeps its work
+// space in global memory: two threads in it spoil each other's numbers without a sign.
 #include <atomic>
 #include <cstddef>
 #include <functional>
 
 namespace capsule {
 
-// What the processes see of each other.
-class Crew {
+// What a task's process tells the first process.
+struct Progress {
+  std::atomic<double> time, x_g;
+  std::atomic<long> steps; // 0: nothing yet
+  std::atomic<int> result; // of the task
+  char error[1000];        // what it threw
+};
+
+// Memory that all processes see.
+class SharedState {
 public:
-  explicit Crew(std::size_t tasks);
-  ~Crew();
-  Crew(const Crew &) = delete;
-  Crew &operator=(const Crew &) = delete;
+  explicit SharedState(std::size_t tasks);
+  ~SharedState();
+  SharedState(const SharedState &) = delete;
+  SharedState &operator=(const SharedState &) = delete;
 
-  // Each task's latest news, from its process to the first one.
-  struct News {
-    std::atomic<double> time, x_g;
-    std::atomic<long> steps; // 0: none yet
-    std::atomic<int> result;
-    char error[1000];
-  };
-  News &news(std::size_t task) { return slots[task]; }
+  Progress &progress(std::size_t task) { return progress_[task]; }
 
-  // Asks all tasks to come to an end.
-  void stop() { *stopping = true; }
-  bool stops() const { return *stopping; }
+  // Asks all tasks to stop.
+  void stop() { *stopping_ = true; }
+  bool stops() const { return *stopping_; }
 
 private:
-  std::size_t bytes;
-  void *memory;
-  std::atomic<bool> *stopping;
-  News *slots;
+  std::size_t bytes_;
+  void *memory_;
+  std::atomic<bool> *stopping_;
+  Progress *progress_;
 };
 
 struct Work {
   std::size_t tasks = 0;
-  unsigned jobs = 1;
+  unsigned jobs = 1;                              // processes at a time
   std::function<int(std::size_t)> task;           // called in a child process
   std::function<void()> watch;                    // called here, some times per second
   std::function<void(std::size_t, int)> finished; // called here with the task's result
 };
 
-// All tasks in order, as long as the crew is not asked to stop. A FileError or another failure of one task
-// stops the others and is thrown when all have ended; so is a task's end by a signal. An InputError is thrown
-// then too, but stops no other task.
-void run_in_processes(const Work &work, Crew &crew);
+// Starts all tasks in order, until they are asked to stop. If one throws a FileError or anything else, or is ended by a
+// signal, the others are asked to stop, and the same is thrown here once they have. An InputError stops no other task and
+// is thrown at the end.
+void run_in_processes(const Work &work, SharedState &shared);
 
 } // namespace capsule

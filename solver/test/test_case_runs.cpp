@@ -79,10 +79,10 @@ std::map<std::string, std::string> numbers_in(const fs::path &directory) {
   return files;
 }
 
-// Counts the calls of the march.
+// Counts how often a run is computed.
 struct Counted {
   std::atomic<int> calls = 0;
-  March march = [this](const Case &physics, const Checkpoint &from, const Control &control) {
+  Method method = [this](const Case &physics, const Checkpoint &from, const Control &control) {
     ++calls;
     return chaotic_march(physics, from, control);
   };
@@ -141,13 +141,13 @@ BOOST_AUTO_TEST_CASE(finished_runs_are_used_again) {
   const TemporaryDirectory directory;
   Counted counted;
   RunOptions options{.directory = directory.path / "a"};
-  compute(case_with({1, 5}), options, counted.march);
+  compute(case_with({1, 5}), options, counted.method);
   BOOST_TEST(counted.calls == 2);
-  compute(case_with({1, 5}), options, counted.march);
+  compute(case_with({1, 5}), options, counted.method);
   BOOST_TEST(counted.calls == 2);
   // A process that is killed when only its checkpoint is left to remove has finished.
   const auto checkpoint = directory.write("a/viscosity_ratio=1/checkpoint.json", "{}");
-  compute(case_with({1, 5}), options, counted.march);
+  compute(case_with({1, 5}), options, counted.method);
   BOOST_TEST(counted.calls == 2);
   BOOST_TEST(!fs::exists(checkpoint));
   BOOST_TEST(state_of(case_with({1, 5}).runs[1], options).finished);
@@ -155,10 +155,10 @@ BOOST_AUTO_TEST_CASE(finished_runs_are_used_again) {
   CaseInput changed = case_with({1, 5});
   changed.runs[0].physics.flow.capillary_number = 0.05;
   BOOST_TEST(!state_of(changed.runs[0], options).finished);
-  compute(changed, options, counted.march);
+  compute(changed, options, counted.method);
   BOOST_TEST(counted.calls == 3);
   options.fresh = true;
-  compute(changed, options, counted.march);
+  compute(changed, options, counted.method);
   BOOST_TEST(counted.calls == 5);
 }
 
@@ -168,14 +168,14 @@ BOOST_AUTO_TEST_CASE(runs_of_another_program_count_only_where_the_user_says) {
   const CaseInput input = case_with({1});
   const RunOptions named{.directory = directory.path / "a"};
   const RunOptions pooled{.directory = directory.path / "b", .pool = directory.path / "runs"};
-  compute(input, named, counted.march);
-  compute(input, pooled, counted.march);
+  compute(input, named, counted.method);
+  compute(input, pooled, counted.method);
   BOOST_TEST(counted.calls == 2);
   directory.write("a/run.json", "{\"identity\": \"of another program\"}");
   directory.write("runs/" + run_identity(input.runs[0].physics) + "/run.json", "{}");
-  compute(input, named, counted.march);
+  compute(input, named, counted.method);
   BOOST_TEST(counted.calls == 2);
-  compute(input, pooled, counted.march);
+  compute(input, pooled, counted.method);
   BOOST_TEST(counted.calls == 3);
 }
 
@@ -184,17 +184,17 @@ BOOST_AUTO_TEST_CASE(a_fresh_start_forgets_the_checkpoint) {
   RunOptions options{.directory = directory.path, .fresh = true};
   const auto checkpoint = directory.write("checkpoint.json", "damaged");
   bool there = true;
-  const March march = [&](const Case &physics, const Checkpoint &from, const Control &control) {
+  const Method method = [&](const Case &physics, const Checkpoint &from, const Control &control) {
     there = fs::exists(checkpoint);
     return chaotic_march(physics, from, control);
   };
-  compute(case_with({1}), options, march);
+  compute(case_with({1}), options, method);
   BOOST_TEST(!there);
 }
 
 BOOST_AUTO_TEST_CASE(bad_input_of_one_run_stops_no_other) {
   const TemporaryDirectory directory;
-  const March march = [](const Case &physics, const Checkpoint &from, const Control &control) {
+  const Method method = [](const Case &physics, const Checkpoint &from, const Control &control) {
     if (physics.flow.viscosity_ratio == 1)
       throw InputError("not this one");
     return chaotic_march(physics, from, control);
@@ -202,7 +202,7 @@ BOOST_AUTO_TEST_CASE(bad_input_of_one_run_stops_no_other) {
   for (const unsigned jobs : {1u, 2u}) {
     const RunOptions options{.directory = directory.path / std::to_string(jobs), .jobs = jobs};
     BOOST_CHECK_EXCEPTION(
-        compute(case_with({1, 2, 3, 4}), options, march), InputError,
+        compute(case_with({1, 2, 3, 4}), options, method), InputError,
         [](const InputError &error) { return std::string(error.what()) == "not this one"; });
     for (const char *other : {"2", "3", "4"})
       BOOST_TEST(fs::exists(options.directory / (std::string("viscosity_ratio=") + other) / "summary.json"));
@@ -222,8 +222,8 @@ BOOST_AUTO_TEST_CASE(cases_share_their_runs) {
   Counted counted;
   const RunOptions first{.directory = directory.path / "one", .pool = directory.path / "runs"};
   const RunOptions second{.directory = directory.path / "two", .pool = directory.path / "runs"};
-  compute(case_with({1, 5}), first, counted.march);
-  const auto results = compute(case_with({5}), second, counted.march);
+  compute(case_with({1, 5}), first, counted.method);
+  const auto results = compute(case_with({5}), second, counted.method);
   BOOST_TEST(counted.calls == 2);
   BOOST_TEST(results.at(0).summary->status == "reached");
   BOOST_TEST(
@@ -256,7 +256,7 @@ BOOST_AUTO_TEST_CASE(runs_side_by_side_are_those_one_after_the_other) {
 
 BOOST_AUTO_TEST_CASE(a_failed_run_keeps_what_was_computed_and_stops_no_other) {
   const TemporaryDirectory directory;
-  const March march = [](const Case &physics, const Checkpoint &from, const Control &control) {
+  const Method method = [](const Case &physics, const Checkpoint &from, const Control &control) {
     Outcome outcome = chaotic_march(physics, from, control);
     if (physics.flow.viscosity_ratio == 2) {
       outcome.status = Status::failed;
@@ -266,7 +266,7 @@ BOOST_AUTO_TEST_CASE(a_failed_run_keeps_what_was_computed_and_stops_no_other) {
     return outcome;
   };
   const RunOptions options{.directory = directory.path / "a"};
-  const auto results = compute(case_with({1, 2, 3}), options, march);
+  const auto results = compute(case_with({1, 2, 3}), options, method);
   BOOST_TEST(results[1].summary->status == "failed");
   BOOST_TEST(results[1].summary->failure == "wrinkled");
   BOOST_TEST(results[1].summary->quantities.at("steps") == 200);
@@ -287,7 +287,7 @@ BOOST_AUTO_TEST_CASE(a_place_that_cannot_be_written) {
 
 BOOST_AUTO_TEST_CASE(a_run_that_ends_by_a_signal_is_told_and_the_others_are_saved) {
   const TemporaryDirectory directory;
-  const March march = [](const Case &physics, const Checkpoint &from, const Control &control) {
+  const Method method = [](const Case &physics, const Checkpoint &from, const Control &control) {
     if (physics.flow.viscosity_ratio == 1)
       raise(SIGKILL);
     while (!control.interrupted())
@@ -295,7 +295,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_by_a_signal_is_told_and_the_others_are_save
     return Outcome{Status::interrupted, "", "", from, {}};
   };
   const RunOptions options{.directory = directory.path, .jobs = 2};
-  BOOST_CHECK_EXCEPTION(compute(case_with({1, 2, 3}), options, march), std::runtime_error,
+  BOOST_CHECK_EXCEPTION(compute(case_with({1, 2, 3}), options, method), std::runtime_error,
                         [](const std::runtime_error &error) {
                           return std::string(error.what()).find("signal 9") != std::string::npos;
                         });
@@ -306,7 +306,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_by_a_signal_is_told_and_the_others_are_save
 BOOST_AUTO_TEST_CASE(a_stop_reaches_every_process) {
   const TemporaryDirectory directory;
   RunOptions options{.directory = directory.path, .jobs = 2};
-  const March march = [](const Case &, const Checkpoint &from, const Control &control) {
+  const Method method = [](const Case &, const Checkpoint &from, const Control &control) {
     while (!control.interrupted())
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return Outcome{Status::interrupted, "", "", from, {}};
@@ -314,7 +314,7 @@ BOOST_AUTO_TEST_CASE(a_stop_reaches_every_process) {
   const pid_t first = getpid();
   int asked = 0;
   options.stop = [&] { return getpid() == first && ++asked > 5; };
-  const auto results = compute(case_with({1, 2, 3}), options, march);
+  const auto results = compute(case_with({1, 2, 3}), options, method);
   BOOST_REQUIRE(results.size() == 3u);
   for (const RunResult &result : results)
     BOOST_TEST(!result.summary);
@@ -328,41 +328,15 @@ BOOST_AUTO_TEST_CASE(two_processes_do_not_compute_one_run) {
   BOOST_REQUIRE(flock(other, LOCK_EX) == 0);
   int asked = 0;
   options.stop = [&] { return ++asked > 3; };
-  BOOST_TEST(!compute(case_with({1}), options, counted.march).at(0).summary);
+  BOOST_TEST(!compute(case_with({1}), options, counted.method).at(0).summary);
   BOOST_TEST(counted.calls == 0);
   options.stop = [] { return false; };
   std::jthread release([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
     close(other);
   });
-  BOOST_TEST(compute(case_with({1}), options, counted.march).at(0).summary.has_value());
+  BOOST_TEST(compute(case_with({1}), options, counted.method).at(0).summary.has_value());
   BOOST_TEST(counted.calls == 1);
-}
-
-BOOST_AUTO_TEST_CASE(marches_that_end_before_they_are_steady_are_remarked) {
-  std::vector<RunResult> results;
-  for (const double residual : {0.5e-4, 2e-4, 3.4e-2}) {
-    RunResult result{case_with({1}).runs[0], "", Summary{}};
-    result.summary->status = "reached";
-    result.summary->quantities = {
-        {"max_axial_residual", residual}, {"max_radial_velocity", 1e-5}, {"x_g", 11.84}};
-    results.push_back(result);
-  }
-  const std::string two = unsteady_remark(results);
-  BOOST_TEST(two.find("2 of 3 runs") != std::string::npos);
-  BOOST_TEST(two.find("up to 0.034") != std::string::npos);
-  BOOST_TEST(two.find("until.x_g") != std::string::npos);
-  BOOST_TEST(unsteady_remark({results[0]}) == "");
-  results[0].input.physics.accuracy = 1e-5;
-  BOOST_TEST(unsteady_remark({results[0]}).find("with 5e-05") != std::string::npos);
-  results[1].summary->status = "failed";
-  results[2].summary->quantities["x_g"] = -1; // not in the pore yet
-  BOOST_TEST(unsteady_remark({results[1], results[2]}) == "");
-  results[2].input.physics.pore.shape = PoreShape::none;
-  results[2].input.physics.until = {.x_g = {}, .time = 3};
-  BOOST_TEST(unsteady_remark({results[2]}).find("until.time") != std::string::npos);
-  results[2].summary.reset(); // interrupted
-  BOOST_TEST(unsteady_remark({results[2]}) == "");
 }
 
 BOOST_AUTO_TEST_CASE(seconds_add_up_over_interruptions) {

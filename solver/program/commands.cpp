@@ -1,0 +1,367 @@
+#include "program/commands.hpp"
+#include "base/atomic_file.hpp"
+#include "base/failure.hpp"
+#include "base/text.hpp"
+#include "case/identity.hpp"
+#include "case/keys.hpp"
+#include "case/new_case.hpp"
+#include "case/project.hpp"
+#include "compare/comparison.hpp"
+#include "compare/ledger.hpp"
+#include "motion/motion.hpp"
+#include "output/provenance.hpp"
+#include "output/tables.hpp"
+#include "program/progress.hpp"
+#include "scene/cost.hpp"
+#include "steady/branch.hpp"
+#include "steady/steady_state.hpp"
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
+#include <unistd.h>
+
+namespace capsule {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// The only thing that a signal's handler may touch.
+std::atomic<bool> signal_came = false;
+
+// The first signal is noted, a second one ends the program at once.
+void listen_to_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { signal_came = true; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+// A case of the project that is called by its name alone, or by a name that is nearly right, is named in full.
+CaseInput read_case_of(const Arguments &arguments, const Task &task = {}) {
+  try {
+    return read_case(arguments.path, arguments.overrides, task);
+  } catch (const InputError &error) {
+    std::error_code ignored;
+    if (fs::exists(arguments.path, ignored))
+      throw;
+    const fs::path path = fs::path(arguments.path);
+    const fs::path name = path.has_filename() ? path.filename() : path.parent_path().filename();
+    const fs::path near = nearest_project_case("", name.string());
+    throw InputError(near.empty() ? error.what()
+                                  : fmt::format("{}did you mean '{}'?\n", error.what(), near.string()));
+  }
+}
+
+// What is computed of a case, and by what.
+struct Computation {
+  Task task = {};
+  Method method = march;
+};
+
+// results/<case> for its motion, results/<case>/steady and results/<case>/branch for its steady states.
+fs::path usual_place(const fs::path &results, const CaseInput &input, const Task &task) {
+  return task.motion ? results / input.name : results / input.name / task.name.substr(0, task.name.find(' '));
+}
+
+RunOptions run_options(const Arguments &arguments, const CaseInput &input, const Task &task = {}) {
+  const fs::path results = "results";
+  RunOptions options;
+  options.directory = arguments.out.empty() ? usual_place(results, input, task) : fs::path(arguments.out);
+  options.pool = arguments.out.empty() ? results / "runs" : fs::path();
+  options.task = task;
+  options.jobs = arguments.jobs;
+  options.fresh = arguments.fresh;
+  options.on_a_terminal = isatty(STDERR_FILENO) == 1;
+  const Clock::time_point began = Clock::now();
+  options.stop = [began, limit = arguments.time_limit] {
+    return signal_came || (limit > 0 && std::chrono::duration<double>(Clock::now() - began).count() > limit);
+  };
+  return options;
+}
+
+bool is_interrupted(const RunResult &result) {
+  return !result.summary;
+}
+bool has_failed(const RunResult &result) {
+  return result.summary && result.summary->status == "failed";
+}
+
+std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arguments,
+                                    const Computation &computation = {}) {
+  listen_to_signals();
+  const RunOptions options = run_options(arguments, input, computation.task);
+  std::vector<RunResult> results = compute(input, options, computation.method);
+  for (const RunResult &result : results)
+    if (has_failed(result))
+      fmt::print(stderr, "{}: {}: {}\n", result.directory.string(), result.summary->failure,
+                 result.summary->message);
+  const auto unfinished = std::ranges::count_if(results, is_interrupted);
+  if (unfinished > 0)
+    fmt::print(stderr, "interrupted: {} of {} to finish; the same command {}\n", unfinished,
+               counted(results.size(), "run"),
+               options.task.motion ? "goes on from the last checkpoint" : "begins with them again");
+  return results;
+}
+
+// Into the table, as one run: the summary that a study, validation/<name>/study.cpp, has left.
+void add_study(const std::string &name, RunTable &table) {
+  RunResult result;
+  result.directory = fs::path("results") / name;
+  if (!fs::exists(result.directory / "summary.json"))
+    return;
+  result.summary = read_summary(result.directory);
+  table.add(name, {result});
+}
+
+// Into the table: these cases of the project, computed where they are not finished, and studies. Returns whether all are
+// finished now.
+bool add_project_cases(const std::vector<std::string> &names, const fs::path &published,
+                       const Arguments &arguments, RunTable &table) {
+  for (const std::string &name : names) {
+    const auto found = find_project_case(published.parent_path().parent_path(), name);
+    if (!found)
+      add_study(name, table);
+    if (!found || table.has(name))
+      continue;
+    const CaseInput input = read_case(found->file);
+    Arguments where = arguments;
+    where.out = found->stored.string();
+    const std::vector<RunResult> results = compute_case(input, where);
+    if (std::ranges::any_of(results, is_interrupted))
+      return false;
+    table.add(name, results);
+  }
+  return true;
+}
+
+std::string unfinished_text(const RunState &state) {
+  return state.fraction > 0 ? fmt::format("{:.0f} % done", 100 * state.fraction) : "to be computed";
+}
+
+// Prints one line for each run, for programs that distribute the runs: its number, its directory's name, its identity,
+// what there is of it.
+ExitCode list_runs(const CaseInput &input, const RunOptions &options) {
+  for (std::size_t i = 0; i < input.runs.size(); ++i) {
+    const RunInput &run_input = input.runs[i];
+    const RunState state = state_of(run_input, options);
+    fmt::print("{}\t{}\t{}\t{}\n", i + 1, name_of(run_input, input),
+               run_identity(run_input.physics, options.task),
+               state.finished ? state.ending : unfinished_text(state));
+  }
+  return ExitCode::done;
+}
+
+CaseInput one_run_of(CaseInput input, std::size_t number) {
+  if (number > input.runs.size())
+    throw InputError(fmt::format("error: --only {}: {} has {}; `capsule run {} --list` shows them\n", number,
+                                 input.name, counted(input.runs.size(), "run"), input.file.string()));
+  input.runs = {input.runs[number - 1]};
+  return input;
+}
+
+ExitCode compute_runs(const CaseInput &whole, const Arguments &arguments, const Computation &computation) {
+  const RunOptions options = run_options(arguments, whole, computation.task);
+  if (arguments.list)
+    return list_runs(whole, options);
+  const CaseInput input = arguments.only > 0 ? one_run_of(whole, arguments.only) : whole;
+  write_run_list(whole, options);
+  const std::vector<RunResult> results = compute_case(input, arguments, computation);
+  if (const std::string remark = computation.task.motion ? unsteady_remark(results) : ""; !remark.empty())
+    fmt::print(stderr, "{}: {}\n", whole.name, remark);
+  if (std::ranges::any_of(results, is_interrupted))
+    return ExitCode::interrupted;
+  return std::ranges::any_of(results, has_failed) ? ExitCode::numerics_failed : ExitCode::done;
+}
+
+// Prints the comparisons if there are any, and writes them to files if these have a name.
+void show_comparisons(const std::vector<Comparison> &comparisons, const std::string &files) {
+  const std::vector<TextRow> rows = comparison_rows(comparisons);
+  if (!comparisons.empty())
+    fmt::print("\n{}\n", text_table(rows));
+  if (files.empty())
+    return;
+  write_atomically(files + ".csv", csv_table(rows));
+  write_atomically(files + ".md", markdown_table(rows));
+}
+
+} // namespace
+
+ExitCode run_case(const Arguments &arguments) {
+  return compute_runs(read_case_of(arguments), arguments, {});
+}
+
+ExitCode find_steady_states(const Arguments &arguments) {
+  std::optional<Profile> from;
+  Task task{.motion = false, .name = "steady"};
+  if (!arguments.from.empty()) {
+    from = read_last_profile(arguments.from);
+    task.name += fmt::format(" --from {} {}", arguments.from, identity_of(arguments.from));
+  }
+  const Method method = [&](const Case &physics, const Checkpoint & /*none is saved*/,
+                            const Control &control) { return steady(physics, from, control); };
+  return compute_runs(read_case_of(arguments, task), arguments, {task, method});
+}
+
+ExitCode follow_branches(const Arguments &arguments) {
+  const Task task{.motion = false,
+                  .name =
+                      fmt::format("branch --along {} --to {}", arguments.along, number_text(arguments.to))};
+  const CaseInput input = read_case_of(arguments, task);
+  for (const RunInput &run : input.runs)
+    require_branch(run.physics, arguments.along, arguments.to);
+  const Method method = [&](const Case &physics, const Checkpoint & /*none is saved*/,
+                            const Control &control) {
+    return follow_branch(physics, arguments.along, arguments.to, control);
+  };
+  return compute_runs(input, arguments, {task, method});
+}
+
+ExitCode check_case(const Arguments &arguments) {
+  const CaseInput input = read_case_of(arguments);
+  const auto published = find_expectations(input.file);
+  std::vector<Expectation> expectations = own_expectations(input.file, input.name);
+  if (published)
+    std::ranges::move(expectations_of(read_expectations(*published), input.name),
+                      std::back_inserter(expectations));
+  write_run_list(input, run_options(arguments, input));
+  const std::vector<RunResult> results = compute_case(input, arguments);
+  if (std::ranges::any_of(results, is_interrupted))
+    return ExitCode::interrupted;
+  RunTable table;
+  table.add(input.name, results);
+  if (published && !add_project_cases(referenced_cases(expectations), *published, arguments, table))
+    return ExitCode::interrupted;
+  std::vector<Comparison> comparisons = compare(expectations, input.name, table);
+  // Overrides may leave some of the runs out on purpose.
+  if (!arguments.overrides.empty())
+    std::erase_if(comparisons, &Comparison::no_such_run);
+  const auto unexpected = [&](const RunResult &r) {
+    return has_failed(r) && !failure_is_expected(comparisons, r);
+  };
+  const auto failures = std::ranges::count_if(results, unexpected);
+  const auto count = [&](Verdict verdict) {
+    return std::ranges::count(comparisons, verdict, &Comparison::verdict);
+  };
+  const bool all = std::ranges::all_of(comparisons, &Comparison::as_recorded);
+  if (comparisons.empty())
+    fmt::print(stderr, "warning: no expectations for {}\n", input.name);
+  show_comparisons(comparisons, arguments.table);
+  fmt::print("{}: {}: {} of {} agree, {} differ, {} not decidable; {} failed unexpectedly\n", input.name,
+             failures > 0          ? "FAILS"
+             : comparisons.empty() ? "NOTHING TO COMPARE"
+             : all                 ? "AS RECORDED"
+                                   : "NOT AS RECORDED",
+             count(Verdict::agrees), counted(comparisons.size(), "row"), count(Verdict::differs),
+             count(Verdict::not_decidable), counted(static_cast<std::size_t>(failures), "run"));
+  return failures > 0 ? ExitCode::numerics_failed : all ? ExitCode::done : ExitCode::differs;
+}
+
+ExitCode write_ledger(const Arguments &arguments) {
+  const auto published = find_expectations(fs::current_path() / "case.toml");
+  if (!published)
+    throw InputError("error: there is no tables/published.csv here or above\n");
+  const fs::path root = published->parent_path().parent_path();
+  const std::vector<Expectation> expectations = read_expectations(*published);
+  std::vector<std::string> names = referenced_cases(expectations);
+  for (const Expectation &row : expectations)
+    names.push_back(row.case_name);
+  RunTable table;
+  if (!add_project_cases(names, *published, arguments, table))
+    return ExitCode::interrupted;
+  std::vector<std::string> cases = table.cases(); // without the studies
+  std::erase_if(cases, [&](const std::string &name) { return !find_project_case(root, name); });
+  std::vector<Comparison> comparisons;
+  for (const Expectation &row : expectations)
+    for (const std::string &name : row.case_name == "*" ? cases : std::vector{row.case_name}) {
+      const std::vector<Comparison> more = compare({row}, name, table);
+      comparisons.insert(comparisons.end(), more.begin(), more.end());
+    }
+  const Ledger ledger = make_ledger(comparisons);
+  write_atomically(arguments.table + ".csv", ledger.csv);
+  write_atomically(arguments.table + ".md", ledger.markdown);
+  fmt::print("{}: {}; {} not as recorded\n", arguments.table, ledger.summary,
+             counted(static_cast<std::size_t>(ledger.not_as_recorded), "row"));
+  return ledger.not_as_recorded == 0 ? ExitCode::done : ExitCode::differs;
+}
+
+ExitCode show_case(const Arguments &arguments) {
+  const CaseInput input = read_case_of(arguments);
+  const RunOptions options = run_options(arguments, input);
+  std::size_t finished = 0;
+  double seconds_left = 0;
+  for (const RunInput &run_input : input.runs) {
+    const RunState state = state_of(run_input, options);
+    const double left = (1 - state.fraction) * estimated_seconds(run_input.physics);
+    finished += state.finished ? 1 : 0;
+    seconds_left += left;
+    fmt::print("# {}: {}\n{}\n", name_of(run_input, input),
+               state.finished
+                   ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
+                   : fmt::format("{}, about {} to go", unfinished_text(state), duration_text(left)),
+               resolved_toml(run_input.physics));
+  }
+  fmt::print("# {}, {} finished, about {} of one core to go\n", counted(input.runs.size(), "run"), finished,
+             duration_text(seconds_left));
+  return ExitCode::done;
+}
+
+ExitCode list_keys() {
+  std::string section;
+  for (const Key &key : keys()) {
+    const std::string here = key.name.substr(0, key.name.find('.'));
+    fmt::print("{}{:<28}{}\n{:<28}default: {}; allowed: {}\n", here == section ? "" : "\n", key.name,
+               key.meaning, "", default_text(key), allowed_text(key));
+    section = here;
+  }
+  fmt::print("\n{:<26}values of another case file, relative to this one, that this one overrides;\n"
+             "{:<26}of several, [\"a\", \"b\"]: the runs of each\n"
+             "sweep.\"any.key\" = [...]   one run per value; several sweeps make every combination\n",
+             "inherit", "");
+  return ExitCode::done;
+}
+
+ExitCode create_case(const std::string &id, const std::string &like) {
+  const fs::path directory = new_case(".", id, like);
+  std::set<std::string> files;
+  for (const fs::path &file : files_in(directory, [](const fs::path &) { return true; }))
+    files.insert(file.filename());
+  fmt::print("{}: {}\n", directory.string(), fmt::join(files, " "));
+  return ExitCode::done;
+}
+
+std::string unsteady_remark(const std::vector<RunResult> &results) {
+  std::size_t unsteady = 0;
+  double fastest = 0;
+  bool by_x_g = false;
+  for (const auto &[input, directory, summary] : results) {
+    if (!summary || summary->status != "reached")
+      continue;
+    const auto at_the_end = [&quantities = summary->quantities](const char *name) {
+      const auto found = quantities.find(name);
+      return found == quantities.end() ? 0 : found->second;
+    };
+    const double moving = std::max(at_the_end("max_axial_residual"), at_the_end("max_radial_velocity"));
+    const bool in_the_mouth = input.physics.pore.shape == PoreShape::hyperbolic && at_the_end("x_g") < 0;
+    if (moving <= input.physics.accuracy || in_the_mouth)
+      continue;
+    ++unsteady;
+    fastest = std::max(fastest, moving);
+    by_x_g = by_x_g || input.physics.until.x_g;
+  }
+  if (unsteady == 0)
+    return "";
+  return fmt::format(
+      "not steady yet{}: the membrane still moves with {}{:.2g} relative to its centre; {} leads nearer, "
+      "`capsule steady` finds the steady state",
+      results.size() == 1 ? "" : fmt::format(", {} of {}", unsteady, counted(results.size(), "run")),
+      unsteady == 1 ? "" : "up to ", fastest,
+      by_x_g ? "a larger until.x_g (with pore.exit_x)" : "a larger until.time");
+}
+
+} // namespace capsule
