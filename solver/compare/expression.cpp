@@ -32,9 +32,9 @@ Values each(const Arguments &arguments, Operation operation) {
   return result;
 }
 
-// The first of all values in an order.
+// The value that comes first in an order.
 template <class Order>
-Values foremost(const Arguments &arguments, Order order) {
+Values first_of(const Arguments &arguments, Order order) {
   Values all;
   for (const Values &values : arguments)
     all.insert(all.end(), values.begin(), values.end());
@@ -72,7 +72,7 @@ Values largest_distance(const Arguments &arguments) {
 }
 
 struct Function {
-  std::size_t least, most; // how many arguments
+  std::size_t least, most; // number of arguments
   Values (*apply)(const Arguments &);
 };
 
@@ -91,8 +91,8 @@ const std::map<std::string, Function> &functions() {
         }}},
       {"abs", {1, 1, [](const Arguments &a) { return each(a, [](double x) { return std::abs(x); }); }}},
       {"log", {1, 1, [](const Arguments &a) { return each(a, [](double x) { return std::log(x); }); }}},
-      {"max", {1, any_number, [](const Arguments &a) { return foremost(a, std::greater<>()); }}},
-      {"min", {1, any_number, [](const Arguments &a) { return foremost(a, std::less<>()); }}},
+      {"max", {1, any_number, [](const Arguments &a) { return first_of(a, std::greater<>()); }}},
+      {"min", {1, any_number, [](const Arguments &a) { return first_of(a, std::less<>()); }}},
       {"mean", {1, 1, mean}},
       {"distance", {4, 4, largest_distance}},
   };

@@ -1,16 +1,18 @@
 #pragma once
-// The language in which tables/published.csv says what is compared: arithmetic on the values of runs.
-//   numbers, + - * / ^, parentheses; abs(a), log(a), max(a, ...), min(a, ...): largest and smallest of all values
+// The expressions of tables/published.csv: arithmetic on the values of runs.
+//   numbers, + - * / ^, parentheses
+//   abs(a), log(a)
+//   max(a, ...), min(a, ...) largest and smallest of all values
 //   mean(a)                  of a list
 //   distance(x, r, x0, r0)   largest distance of the points (x, r) from the line through the points (x0, r0)
-//   name                     a value of the run that the row speaks of
+//   name                     a value of the run with which the row is compared
 //   name{runs}               of other runs: "law=skalak; viscosity_ratio=0.2|1|5", "another-case: radius=0.9",
 //                            "another-case:"
 //   name@column=a            where a column passes a for the first time; linear between the rows
 //   name@column=a..b         all values from a to b, ends included
 //   name@x_g=1@S=0           in the profile at x_g = 1, where S = 0
-// Every value is a list, most often of one number; an operation takes lists of one length, or one number and
-// a list. What a name means is up to the caller (run_values.hpp).
+// Every value is a list, most often of one number. An operation takes lists of equal length, or one number and a list.
+// The caller says what a name means (run_values.hpp).
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,7 +25,7 @@ namespace capsule {
 struct Place {
   std::string column;
   double from = 0;
-  double to = 0; // equal: one place
+  double to = 0; // equal to `from`: one place
 };
 struct Reference {
   std::string name;
@@ -34,7 +36,7 @@ struct Reference {
 using Values = std::vector<double>;
 using Lookup = std::function<Values(const Reference &)>;
 
-// There is nothing to compute with: no such run, no such value. One or two words.
+// There is nothing to compute with. The text is short: "no such run", "no value".
 struct NoValue : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -44,8 +46,9 @@ public:
   // Throws InputError with one line that says what is wrong.
   explicit Expression(const std::string &text);
 
-  // One number. Throws NoValue, also if there are several.
+  // Its one number. Throws NoValue if there is none, or several.
   double value(const Lookup &lookup) const;
+  // In the order in which they are looked up.
   std::vector<Reference> references() const;
 
 private:

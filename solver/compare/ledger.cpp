@@ -6,7 +6,7 @@
 namespace capsule {
 namespace {
 
-// One comparison per row: the one that fits worst.
+// One comparison for each row of a claim: the one that fits worst.
 std::vector<Comparison> worst_of_each_row(const std::vector<Comparison> &comparisons) {
   std::vector<Comparison> worst;
   for (const Comparison &candidate : comparisons) {

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Profiles are written at the places that were asked for: nearer than this is the same place.
+// Profiles are written at the places that were asked for. Places nearer to each other than this are the same.
 constexpr double same_place = 1e-6;
 
 std::vector<std::string> split(const std::string &text, char separator) {
@@ -30,7 +30,7 @@ const Key *key_named(const std::string &name) {
   return found == keys().end() ? nullptr : &*found;
 }
 
-// A quantity is the same in other units, or as the number in SI units by which runs are named.
+// A physical quantity may be given in any unit, or as a number in SI units, as in the names of runs.
 bool has_value(const Case &physics, const Key &key, const std::string &text) {
   if (const auto *measured = std::get_if<Measured>(&key.field)) {
     const auto read = read_quantity(text, measured->dimension);
@@ -69,11 +69,11 @@ double value_at(const Values &y, const Values &x, double at) {
   throw NoValue("no value");
 }
 
-// y where x lies in a place. Ends of a range beyond those of x are cut off.
+// y where x lies in a place. A range is cut off at the ends of x.
 Values values_at(const Values &y, const Values &x, const Place &place) {
   if (place.from == place.to)
     return {value_at(y, x, place.from)};
-  const double end_of_grid = 1e-9; // rows lie at round values to rounding, and an end counts once
+  const double end_of_grid = 1e-9; // rounding of the rows' places: an end must not count twice
   Values values;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (x[i] > place.from + end_of_grid && x[i] < place.to - end_of_grid)
@@ -91,7 +91,7 @@ Values part(const Values &values, const std::vector<std::size_t> &rows) {
   return result;
 }
 
-// The rows of the profile at a place along the way, or of the last one.
+// The rows of the profile at a time or x_g, or of the last one.
 std::vector<std::size_t> profile_rows(const Columns &profiles, const std::optional<Place> &place) {
   const Values &along = column(profiles, place ? place->column : "time");
   std::vector<std::size_t> rows;
@@ -223,9 +223,9 @@ Values RunTable::values(const Reference &reference, const std::string &case_name
 
 std::optional<double> RunTable::error_estimate(const Expression &expression, const std::string &case_name,
                                                const RunResult *run) const {
-  // What the expression becomes when the values of one reference, taken from one run, are off by their error.
+  // The values of one reference in one run, off by their error.
   struct Off {
-    std::size_t reference; // counted in the order of evaluation
+    std::size_t reference; // its index, in the order of evaluation
     const RunResult *run;
     double error;
   };

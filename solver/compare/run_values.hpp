@@ -1,10 +1,10 @@
 #pragma once
 // What the names of an expression (expression.hpp) mean in a run:
-//   a quantity of summary.json, the end of the run      pressure_drop, peak_pressure_drop
-//   a key of the case                                   capsule.radius, or radius
-//   a column of series.csv at a place                   x_g@time=18.7, min_film@x_g=-4..4
-//   a column of profiles.csv: of the last profile, or   r, tension_meridional@x_g=1@S=0
-//   of the one at a place (x_g or time); all points, or those at a place S
+//   a quantity of summary.json             pressure_drop, peak_pressure_drop
+//   a key of the case                      capsule.radius, or radius
+//   a column of series.csv at a place      x_g@time=18.7, min_film@x_g=-4..4
+//   a column of profiles.csv               r, tension_meridional@x_g=1@S=0
+//     of the last profile, or of that at a time or x_g; all its points, or those at a place S
 // Throws FileError and, of a table that cannot be used, InputError; NoValue ("no such run", "no value") where there is nothing.
 #include "base/csv.hpp"
 #include "compare/expression.hpp"
@@ -14,7 +14,7 @@
 
 namespace capsule {
 
-// "viscosity_ratio=0.2|1; law=skalak": keys with the values that are wanted.
+// Chooses runs by the values of their keys: "viscosity_ratio=0.2|1; law=skalak".
 class Selector {
 public:
   // Throws InputError with one line that says what is wrong.
@@ -33,11 +33,11 @@ public:
   std::vector<std::string> cases() const;
   const std::vector<RunResult> &runs_of(const std::string &case_name) const;
 
-  // What a reference means to a row that speaks of this case and, unless it names runs itself, of this run.
+  // The values of a reference in a row about this case and, unless the reference names its runs itself, about this run.
   Values values(const Reference &reference, const std::string &case_name, const RunResult *run) const;
 
-  // A bound of the error of an expression: what the estimated errors of all values in it change, added. None if
-  // one of the values has no estimate, or the expression has no value.
+  // A bound of the error of an expression: the changes that the estimated errors of its values make in it, added up.
+  // None if one of the values has no estimate, or the expression has no value.
   std::optional<double> error_estimate(const Expression &expression, const std::string &case_name,
                                        const RunResult *run) const;
 
@@ -45,7 +45,7 @@ private:
   std::vector<const RunResult *> selected(const Reference &reference, const std::string &case_name,
                                           const RunResult *run) const;
   const Columns &columns(const std::filesystem::path &file) const;
-  // Whether there is such a file (a study leaves a summary only) with such a column.
+  // Whether there is such a file with such a column; a study leaves its summary only.
   bool has_column(const std::filesystem::path &file, const std::string &name) const;
   Values values_in(const RunResult &run, const Reference &reference) const;
 
@@ -53,7 +53,8 @@ private:
   mutable std::map<std::filesystem::path, Columns> files_; // read so far
 };
 
-// What stands between a reference's braces: "another-case", or nothing; the selector after it.
+// The two parts of what stands between a reference's braces, "another-case: radius=0.9": the case, if there is one, and
+// the selector.
 std::optional<std::string> case_of(const Reference &reference);
 std::string runs_of(const Reference &reference);
 

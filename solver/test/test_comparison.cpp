@@ -1,5 +1,4 @@
-// Computed against expected values: reading the table, choosing runs, distances, bounds, statuses, verdicts and their
-// record, mistakes; the ledger.
+// Computed against expected values: choosing runs, distances, bounds, statuses, verdicts and their record; the ledger.
 #include "base/failure.hpp"
 #include "compare/comparison.hpp"
 #include "compare/ledger.hpp"
@@ -33,16 +32,6 @@ std::vector<Comparison> compared(const std::string &rows, const std::vector<RunR
   table.add("fig", results);
   const auto all = read_expectations(directory.write("published.csv", header + rows));
   return compare(expectations_of(all, "fig"), "fig", table);
-}
-
-std::string mistake_in(const std::string &table) {
-  const TemporaryDirectory directory;
-  try {
-    read_expectations(directory.write("published.csv", table));
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 void check_contains(const std::string &text, const std::string &part) {
@@ -95,15 +84,9 @@ BOOST_AUTO_TEST_CASE(distances_relative_and_absolute) {
   const auto row = compared(plain("a,\"T, U\",fig,,v_g,2.5,25 %,"), {result_with(1, 2.0)});
   BOOST_TEST(row.at(0).distance == "-20 %");
   const auto rows = comparison_rows(row);
-  check_contains(text_table(rows), "-20 %");
-  check_contains(text_table(rows), "agrees\n");
   BOOST_TEST(csv_table(rows) ==
              "id,where,run,quantity,computed,converged,own error,published,distance,allowed,verdict\n"
              "a,\"T, U\",viscosity_ratio=1,v_g,2,,3e-05,2.5,-20 %,25 %,agrees\n");
-  check_contains(
-      markdown_table(rows),
-      "| --- |\n| a | T, U | viscosity_ratio=1 | v_g | 2 |  | 3e-05 | 2.5 | -20 % | 25 % | agrees |\n");
-  BOOST_TEST(markdown_table({{"a|b"}}) == "| a\\|b |\n| --- |\n");
 }
 
 BOOST_AUTO_TEST_CASE(bounds) {
@@ -166,86 +149,6 @@ BOOST_AUTO_TEST_CASE(a_verdict_needs_a_small_error) {
   BOOST_TEST(both.as_recorded());
   BOOST_TEST(both.converged == "2");
   BOOST_TEST(both.estimate == "3e-05");
-}
-
-BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
-  check_contains(mistake_in(""), "published.csv:1:1: error: the first line must be");
-  check_contains(mistake_in("id,where\n"), "published.csv:1:1: error: the first line must be");
-  check_contains(mistake_in(header + "a,T,fig,,v_g,1\n"), "published.csv:2:1: error: 6 fields instead of 14");
-  const auto mistake = [](const std::string &fields) { return mistake_in(header + plain(fields)); };
-  check_contains(mistake("a,T,x,,v_g,high,1 %,"), "the value 'high' is not a number");
-  check_contains(mistake("a,T,x,,v_g,<high,,"), "the value '<high' is not a number");
-  check_contains(mistake("a,T,x,,v_g,<1,0.1,"), "a bound allows no distance");
-  check_contains(mistake("a,T,x,,status,done,,"), "the status 'done' is none of 'reached', 'steady'");
-  check_contains(mistake_in(header + plain("a,T,x,,v_g,1,1 %,") + plain("a,T,x,,x_g,1,1 %,")),
-                 "published.csv:3:1: error: the id 'a' is there already");
-  check_contains(mistake("a,T,x,,v_g,1,,"), "allowed '' is not a positive number");
-  check_contains(mistake("a,T,x,,v_g,1,-1 %,"), "allowed '-1 %' is not");
-  check_contains(mistake("a,T,x,,v_g,0,1 %,"), "nothing can be relative");
-  check_contains(mistake("a,T,x,size=1,v_g,1,1 %,"), "unknown key 'size'");
-  check_contains(mistake("a,T,x,all,v_g,1,1 %,"), "the run 'all' is not of the form");
-  check_contains(mistake("a,T,x,,v_g +,1,1 %,"), "a number or a name is missing");
-  check_contains(mistake("a,T,x,,v_g{size=1},1,1 %,"), "unknown key 'size'");
-  const std::string row = "a,T,x,,v_g,1,1 %,,";
-  check_contains(mistake_in(header + row + "A,number,,,yes,\n"),
-                 "the verdict 'yes' is none of 'agrees', 'differs'");
-  check_contains(mistake_in(header + row + "A,number,,,differs,\n"), "evidence is missing");
-  check_contains(mistake_in(header + row + "A,size,,,agrees,\n"), "the kind 'size' is none of");
-  const std::string all = mistake_in("id\nb\n" + plain("a,T,x,,v_g,high,1 %,") + plain("a,T,fig,,v_g,1,0,"));
-  for (const char *place : {":1:1: error: ", ":2:1: error: ", ":3:1: error: ", ":4:1: error: "})
-    check_contains(all, place);
-}
-
-// A case directory may say itself what it expects, in fewer columns; other files in it have none.
-BOOST_AUTO_TEST_CASE(expectations_of_the_directory) {
-  const TemporaryDirectory directory;
-  const auto file = directory.write("fig/case.toml", "");
-  BOOST_TEST(own_expectations(file, "fig").empty());
-  directory.write("fig/expected.csv", "id,run,quantity,expected,allowed,reason\n"
-                                      "a,viscosity_ratio=5,v_g,1.3,0.1 %,why\nb,,v_g,<1.25,,\n");
-  RunTable table;
-  table.add("fig", {result_with(1, 1.2), result_with(5, 1.3)});
-  const auto rows = compare(own_expectations(file, "fig"), "fig", table);
-  BOOST_REQUIRE(rows.size() == 3u);
-  BOOST_TEST(
-      (rows[0].as_recorded() && rows[0].run == "viscosity_ratio=5" && rows[0].expected.reason == "why"));
-  BOOST_TEST((rows[1].as_recorded() && !rows[2].as_recorded()));
-  BOOST_TEST(own_expectations(directory.write("fig/other.toml", ""), "fig-other").empty());
-  directory.write("fig/expected.csv", header);
-  try {
-    own_expectations(file, "fig");
-    BOOST_ERROR("accepted");
-  } catch (const InputError &error) {
-    check_contains(error.what(),
-                   "expected.csv:1:1: error: the first line must be 'id,run,quantity,expected,");
-  }
-}
-
-// A spreadsheet has saved it, in its own way.
-BOOST_AUTO_TEST_CASE(expectations_from_a_spreadsheet) {
-  const TemporaryDirectory directory;
-  const auto file = directory.write("fig/case.toml", "");
-  directory.write("fig/expected.csv",
-                  "\xEF\xBB\xBF\"id\",\"run\",\"quantity\",\"expected\",\"allowed\",\"reason\",\r\n\r\n"
-                  "\"a\",,\"v_g\",1.3,0.1 %,\"why, not\",\r\n,,,,,,\r\n\r\n");
-  const auto rows = own_expectations(file, "fig");
-  BOOST_REQUIRE(rows.size() == 1u);
-  BOOST_TEST(rows[0].published_value == 1.3);
-  BOOST_TEST(rows[0].reason == "why, not");
-  directory.write("fig/expected.csv", "id;run;quantity;expected;allowed;reason\na;;v_g;1,3;0,1 %;\n");
-  BOOST_CHECK_EXCEPTION(own_expectations(file, "fig"), InputError, [](const InputError &error) {
-    check_contains(error.what(), "expected.csv:1:1: error: semicolons or tabs");
-    return true;
-  });
-}
-
-BOOST_AUTO_TEST_CASE(the_table_is_found_above_the_case) {
-  const TemporaryDirectory directory;
-  const auto file = directory.write("project/cases/fig/case.toml", "");
-  BOOST_TEST(!find_expectations(file));
-  const auto table = directory.write("project/tables/published.csv", header);
-  BOOST_REQUIRE(find_expectations(file));
-  BOOST_TEST(std::filesystem::equivalent(*find_expectations(file), table));
 }
 
 // One line per row, with its worst run; a claim differs if one of its rows does.

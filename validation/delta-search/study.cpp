@@ -2,7 +2,8 @@
 // number owe to it? Every run of the cases below is repeated with stiffnesses of whole decades on two meshes.
 #include "study.hpp"
 #include "case/identity.hpp"
-#include "compare/comparison.hpp"
+#include "compare/expectations.hpp"
+#include "compare/run_values.hpp"
 #include "scene/resolution.hpp"
 #include <algorithm>
 #include <cmath>

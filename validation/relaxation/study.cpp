@@ -3,7 +3,7 @@
 // velocities the small motions, all of them or the slowest alone, carry on to where the table was read off, beside
 // marches in a longer tube and in the paper's, whose exit is near there; and on, to where the capsule has settled.
 #include "study.hpp"
-#include "compare/comparison.hpp"
+#include "compare/expectations.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
 #include "observe/gauge.hpp"
