@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view temporary_prefix = ".writing-";
 
-// Beside the file's place: one that all processes know, and one of each process.
+// Temporary names beside the file's place: one that all processes use, and one for each process.
 fs::path common_temporary(const fs::path &file) {
   return file.parent_path() / fmt::format("{}{}", temporary_prefix, file.filename().string());
 }
@@ -32,15 +32,14 @@ bool is_open_at(int descriptor, const fs::path &path) {
          open.st_ino == there.st_ino;
 }
 
-// What a file is written into before it takes its place. The descriptor is negative, and errno says why, where there can
-// be none.
+// An open temporary file. If it cannot be opened, the descriptor is negative and errno says why.
 struct Temporary {
   fs::path path;
   int descriptor = -1;
 };
 
-// The common one, so that what a killed process has left in it is overwritten; one's own where another process is
-// writing that one, where it is another user's, or where the file system has no locks.
+// Opens the common one, so that what a killed process has left in it is overwritten; the own one if another process is
+// writing the common one, if that belongs to another user, or if the file system has no locks.
 Temporary open_temporary(const fs::path &file) {
   const fs::path common = common_temporary(file);
   const int descriptor = open(common.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
@@ -48,7 +47,7 @@ Temporary open_temporary(const fs::path &file) {
     const bool locked = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
     if (!locked && errno != EWOULDBLOCK)
       unlink(common.c_str());
-    // Its writer may have been faster: then it is the file by now.
+    // Another process may have renamed it in the meantime.
     if (locked && is_open_at(descriptor, common) && ftruncate(descriptor, 0) == 0)
       return {common, descriptor};
     close(descriptor);
@@ -97,7 +96,7 @@ void write_atomically(const fs::path &file, std::string_view content) {
     error = errno;
   if (error != 0)
     unlink(temporary.c_str());
-  if (descriptor >= 0) // only now: with it goes the lock
+  if (descriptor >= 0) // not before: this releases the lock
     close(descriptor);
   if (error != 0)
     fail_at("cannot write", file, error);
@@ -133,7 +132,7 @@ std::vector<fs::path> files_in(const fs::path &directory,
   return files;
 }
 
-std::vector<fs::path> meant_by(const fs::path &temporary) {
+std::vector<fs::path> final_names(const fs::path &temporary) {
   const std::string name = temporary.filename().string();
   if (!name.starts_with(temporary_prefix))
     return {};

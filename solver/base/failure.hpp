@@ -1,5 +1,5 @@
 #pragma once
-// How things go wrong: each failure says what happened, where, and what to try.
+// Failures. Each says what happened, where, and what to try.
 #include <stdexcept>
 #include <string>
 
@@ -15,9 +15,9 @@ struct FileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The computation cannot go on (exit code 3). `kind` is one word for scripts: "touching", "folded",
-// "wrinkled", "unresolved", "volume", "step", "not-a-number", "self-contact", "exit", "fold", or "unbounded", which
-// ends a run without being its failure; `advice` says what to try.
+// The computation cannot go on (exit code 3). `kind` is one word for scripts: "touching", "folded", "wrinkled",
+// "unresolved", "volume", "step", "not-a-number", "self-contact", "exit", "fold"; or "unbounded", which ends a run but is
+// not a failure of it. `advice` says what to try.
 struct NumericsFailure : std::runtime_error {
   std::string kind;
   std::string advice;

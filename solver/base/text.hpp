@@ -11,7 +11,7 @@ namespace capsule {
 // The shortest decimal text that reads back as the same double: "0.2", "15", "1e-5", "nan", "-inf".
 std::string number_text(double value);
 
-// The number that a text is, the whole of it.
+// The number that the whole text is.
 std::optional<double> to_number(const std::string &text);
 
 // "1 run", "4 runs".
@@ -20,9 +20,9 @@ std::string counted(std::size_t number, std::string_view what);
 // Without spaces around it.
 std::string trimmed(const std::string &text);
 
-// The candidate that a mistyped word most likely meant; empty if none is near. Counts inserted, deleted,
-// replaced and swapped letters and gives up beyond a third of the word; a word that was cut short counts as
-// one letter off.
+// The candidate that a mistyped word most likely means; empty if none is near. Counts inserted, deleted, replaced and
+// swapped letters; near is at most a third of the word's letters. A candidate that the word begins counts as one letter
+// off.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
 // UTF-8 as characters and back. Bytes that are not UTF-8 become U+FFFD, one for each broken sequence.
@@ -34,9 +34,9 @@ struct EncodingError {
   std::string message;
 };
 std::optional<EncodingError> encoding_error(std::string_view bytes);
-// Neither a command to the terminal, nor invisible, nor U+FFFD.
+// Not a command to the terminal, not invisible, not U+FFFD.
 bool is_printable(char32_t c);
-// With "\\u001b" for a character that is not printable.
+// With "\u001b" for a character that is not printable.
 std::string printable(std::string_view text);
 
 // What follows the last dot of a key: "capillary_number" of "flow.capillary_number".

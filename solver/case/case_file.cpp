@@ -33,7 +33,7 @@ struct Builder {
   Chosen chosen;
   RunInput run;
   std::vector<std::string> derived; // keys whose value follows from the physical ones
-  bool measured_well = true;        // no physical key was complained of
+  bool physical_ok = true;          // no error in a physical key
 
   // Section 3 of the paper; values that are given override it.
   void apply_preset() {
@@ -73,7 +73,7 @@ struct Builder {
     if (!measured)
       return;
     measured->member.in(run.physics).si = 1;
-    measured_well = false;
+    physical_ok = false;
   }
 
   // The dimensionless values that follow from the physical ones; a value that is given too must agree.
@@ -87,11 +87,11 @@ struct Builder {
       std::vector<std::string> places = why.keys;
       std::ranges::copy(physical_keys(), std::back_inserter(places));
       chosen.complain(places, why.message, "`capsule keys` tells what physical.* means");
-      measured_well = false;
+      physical_ok = false;
     }
     for (const Derived &value : derived_values(run.physics)) {
       derived.push_back(value.key);
-      if (measured_well)
+      if (physical_ok)
         take_derived(value);
     }
   }
@@ -168,7 +168,7 @@ std::vector<RunInput> build_runs(CaseReader &reader, const Task &task) {
     builder.take_values();
     builder.derive();
     builder.complete();
-    if (builder.has_required() && builder.measured_well && valid)
+    if (builder.has_required() && builder.physical_ok && valid)
       check_together(builder.chosen, builder.run.physics, task);
     runs.push_back(std::move(builder.run));
   }

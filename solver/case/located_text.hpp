@@ -47,7 +47,7 @@ struct LocatedText {
   std::size_t add_source(const std::string &label, const std::string &text);
   // The rest of the line.
   std::string text_at(const TextPlace &place) const;
-  // Once, whoever says it again: the runs of a sweep may fail alike.
+  // Keeps each error once, even if several runs of a sweep repeat it.
   void complain(const LocatedError &error);
   // Throws InputError with all errors in the order of their places, if there are any.
   void throw_if_any();

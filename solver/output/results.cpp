@@ -24,8 +24,9 @@ bool is_result(const fs::path &file) {
 
 // What a killed process leaves behind of a run's files; of others, another process may be writing.
 bool is_left_over(const fs::path &file) {
-  return std::ranges::any_of(
-      meant_by(file), [](const fs::path &meant) { return is_result(meant) || meant == "checkpoint.json"; });
+  return std::ranges::any_of(final_names(file), [](const fs::path &meant) {
+    return is_result(meant) || meant == "checkpoint.json";
+  });
 }
 
 Case input_of(const fs::path &directory, const Task &task) {
@@ -78,7 +79,7 @@ bool is_finished_input(const fs::path &directory, const Case &physics, const Tas
     return false;
   try {
     return same_input(input_of(directory, task), physics, task);
-  } catch (const InputError &) { // an input that is none any more
+  } catch (const InputError &) { // no longer a valid input
     return false;
   }
 }
@@ -95,7 +96,7 @@ std::string other_results(const fs::path &directory, const Case &physics, const 
       return fmt::format("the results of `capsule {}`", made_by);
     const Case other = input_of(directory, task);
     return same_input(other, physics, task) ? "" : fmt::format("a run with {}", what_differs(other, physics));
-  } catch (const std::exception &) { // files that are damaged, or of an input that is none any more
+  } catch (const std::exception &) { // files that are damaged, or of no longer a valid input
     return "results that cannot be read any more";
   }
 }
