@@ -61,19 +61,21 @@ void add(const std::string &name, const Call &call) {
 
 int main(int argc, char **argv) {
   for (const RingKernels &kernels : available_ring_kernels()) {
-    add("stokeslet/" + kernels.instructions,
-        [kernels](double x0, double r0, Row &row) { kernels.stokeslet(x0, r0, row.rings(), row.out(0)); });
-    add("stresslet/" + kernels.instructions,
-        [kernels](double x0, double r0, Row &row) { kernels.stresslet(x0, r0, row.rings(), row.out(0)); });
+    add("stokeslet/" + kernels.instructions, [kernels](double x0, double r0, Row &row) {
+      kernels.stokeslet.plain(x0, r0, row.rings(), row.out(0));
+    });
+    add("stresslet/" + kernels.instructions, [kernels](double x0, double r0, Row &row) {
+      kernels.stresslet.plain(x0, r0, row.rings(), row.out(0));
+    });
     add("both/" + kernels.instructions, [kernels](double x0, double r0, Row &row) {
-      kernels.stokeslet(x0, r0, row.rings(), row.out(0));
-      kernels.stresslet(x0, r0, row.rings(), row.out(1));
+      kernels.stokeslet.plain(x0, r0, row.rings(), row.out(0));
+      kernels.stresslet.plain(x0, r0, row.rings(), row.out(1));
     });
     add("stokeslet_split/" + kernels.instructions, [kernels](double x0, double r0, Row &row) {
-      kernels.stokeslet_split(r0, row.rings(), separations(x0, r0, row.rings()), row.out(0), row.out(1));
+      kernels.stokeslet.split(r0, row.rings(), separations(x0, r0, row.rings()), row.out(0), row.out(1));
     });
     add("stresslet_split/" + kernels.instructions, [kernels](double x0, double r0, Row &row) {
-      kernels.stresslet_split(r0, row.rings(), separations(x0, r0, row.rings()), row.out(0), row.out(1));
+      kernels.stresslet.split(r0, row.rings(), separations(x0, r0, row.rings()), row.out(0), row.out(1));
     });
   }
   benchmark::Initialize(&argc, argv);

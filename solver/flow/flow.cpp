@@ -1,7 +1,6 @@
 #include "flow/flow.hpp"
 #include "base/failure.hpp"
 #include "geometry/pore.hpp"
-#include "integrals/ring_kernel.hpp"
 #include <cmath>
 #include <numbers>
 
@@ -9,7 +8,6 @@ namespace capsule {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double stokeslet_factor = 1 / (8 * pi);
 constexpr int exit_points = 12;
 
 double poiseuille(double r) {
@@ -62,11 +60,6 @@ KernelRow kernel_row(RowMatrix &matrix, Eigen::Index target, Eigen::Index second
   double *const axial_row = matrix.row(target).data();
   double *const radial_row = matrix.row(second + target).data();
   return {axial_row, axial_row + radial, radial_row, radial_row + radial};
-}
-
-Rings rings_of(const Curve &curve) {
-  return {static_cast<int>(curve.size()), curve.x.data(), curve.r.data(), curve.normal_x.data(),
-          curve.normal_r.data()};
 }
 
 // The last solutions belong to shapes along a smooth way: the new shape as a combination of theirs, by least
@@ -227,9 +220,9 @@ void FlowSystem::build_wall(const Pore &pore) {
 RowMatrix FlowSystem::wall_response(const Targets &points) const {
   RowMatrix wall;
   const NearRule near(wall_.panel_points, resolution_.near_tolerance);
-  assemble_layer(Layer::single, points, wall_, nullptr, near, wall);
+  assemble_layer(ring_stokeslet, points, wall_, nullptr, near, wall);
   RowMatrix exit;
-  assemble_layer(Layer::single, points, exit_, nullptr, exit_near_, exit);
+  assemble_layer(ring_stokeslet, points, exit_, nullptr, exit_near_, exit);
   const Eigen::Index n = wall_.size();
   RowMatrix response(wall.rows(), unknowns());
   response.leftCols(n) = stokeslet_factor * wall.leftCols(n);
@@ -248,8 +241,8 @@ Vector FlowSystem::exit_field(const RowMatrix &single, const RowMatrix &double_l
 Vector FlowSystem::exit_field(const Targets &points) const {
   RowMatrix single;
   RowMatrix double_layer;
-  assemble_layer(Layer::single, points, exit_, nullptr, exit_near_, single);
-  assemble_layer(Layer::dbl, points, exit_, nullptr, exit_near_, double_layer);
+  assemble_layer(ring_stokeslet, points, exit_, nullptr, exit_near_, single);
+  assemble_layer(ring_stresslet, points, exit_, nullptr, exit_near_, double_layer);
   for (Eigen::Index i = 0; i < points.size(); ++i)
     if (points.x[i] == exit_.x[0]) // a plane's double layer vanishes on the plane itself
       double_layer.row(i).setZero();
@@ -326,9 +319,9 @@ FlowSystem::Interaction FlowSystem::interact(const Vector &position, bool with_d
                     {}};
   complete(shape.on_nodes);
 
-  assemble_layer(Layer::single, shape.nodes, membrane, &self_, near_, shape.single_mm);
+  assemble_layer(ring_stokeslet, shape.nodes, membrane, &self_, near_, shape.single_mm);
   if (with_double_layers)
-    assemble_layer(Layer::dbl, shape.nodes, membrane, &self_, near_, shape.double_mm);
+    assemble_layer(ring_stresslet, shape.nodes, membrane, &self_, near_, shape.double_mm);
   if (has_wall()) {
     couple_to_wall(shape);
     refine_near_wall(shape);
@@ -343,20 +336,21 @@ FlowSystem::Interaction FlowSystem::interact(const Vector &position, bool with_d
 void FlowSystem::couple_to_wall(Interaction &shape) const {
   const Eigen::Index n = basis_.size();
   const Eigen::Index n_b = wall_.size();
-  const Rings wall = rings_of(wall_);
-  const Rings nodes = rings_of(shape.on_nodes);
+  const Rings wall = rings_of(wall_, 0, n_b);
+  const Rings nodes = rings_of(shape.on_nodes, 0, n);
   shape.from_wall.resize(2 * n, unknowns());
   for (Eigen::Index j = 0; j < n; ++j)
-    ring_stokeslet(shape.nodes.x[j], shape.nodes.r[j], wall, kernel_row(shape.from_wall, j, n, n_b + 1));
+    ring_stokeslet.plain(shape.nodes.x[j], shape.nodes.r[j], wall,
+                         kernel_row(shape.from_wall, j, n, n_b + 1));
   RowMatrix axis(2, 2 * n);
-  ring_stokeslet(exit_.x[0], 0, nodes, kernel_row(axis, 0, 1, n));
+  ring_stokeslet.plain(exit_.x[0], 0, nodes, kernel_row(axis, 0, 1, n));
   shape.to_axis = axis.row(0);
   if (shape.double_mm.size() == 0)
     return;
   shape.double_bm.resize(unknowns(), 2 * n);
   for (Eigen::Index i = 0; i < n_b; ++i)
-    ring_stresslet(wall_.x[i], wall_.r[i], nodes, kernel_row(shape.double_bm, i, n_b + 1, n));
-  ring_stresslet(exit_.x[0], 0, nodes, kernel_row(axis, 0, 1, n));
+    ring_stresslet.plain(wall_.x[i], wall_.r[i], nodes, kernel_row(shape.double_bm, i, n_b + 1, n));
+  ring_stresslet.plain(exit_.x[0], 0, nodes, kernel_row(axis, 0, 1, n));
   shape.double_bm.row(n_b) = axis.row(0);
 }
 
@@ -366,7 +360,7 @@ void FlowSystem::refine_near_wall(Interaction &shape) const {
   const Eigen::Index p = wall_.panel_points;
   const Eigen::Index radial = wall_.size() + 1;
   for (Eigen::Index j = 0; j < n; ++j)
-    wall_near_.at_near_panels(Layer::single, shape.nodes.x[j], shape.nodes.r[j],
+    wall_near_.at_near_panels(ring_stokeslet, shape.nodes.x[j], shape.nodes.r[j],
                               [&](Eigen::Index first, KernelBlock &block) {
                                 block.array().rowwise() /= wall_.area.segment(first, p).transpose().array();
                                 KernelBlock difference(4, p);
@@ -400,9 +394,9 @@ void FlowSystem::add_near_rows(Interaction &shape) const {
     return;
   const auto count = static_cast<Eigen::Index>(near.size());
   Targets points{wall_.x(near), wall_.r(near)};
-  assemble_layer(Layer::single, points, shape.membrane, nullptr, near_, shape.near_single);
+  assemble_layer(ring_stokeslet, points, shape.membrane, nullptr, near_, shape.near_single);
   if (shape.double_mm.size() > 0)
-    assemble_layer(Layer::dbl, points, shape.membrane, nullptr, near_, shape.near_double);
+    assemble_layer(ring_stresslet, points, shape.membrane, nullptr, near_, shape.near_double);
   shape.near_row = near;
   for (Eigen::Index i = 0; i < count; ++i)
     shape.near_row.push_back(wall_.size() + 1 + near[static_cast<std::size_t>(i)]);
@@ -410,12 +404,12 @@ void FlowSystem::add_near_rows(Interaction &shape) const {
 
 void FlowSystem::couple_to_exit(Interaction &shape) const {
   RowMatrix single;
-  assemble_layer(Layer::single, shape.nodes, exit_, nullptr, exit_near_, single);
+  assemble_layer(ring_stokeslet, shape.nodes, exit_, nullptr, exit_near_, single);
   shape.from_wall.col(wall_.size()) = -stokeslet_factor * single.leftCols(exit_.size()).rowwise().sum();
   if (pore_ != PoreShape::hyperbolic)
     return;
   RowMatrix double_layer;
-  assemble_layer(Layer::dbl, shape.nodes, exit_, nullptr, exit_near_, double_layer);
+  assemble_layer(ring_stresslet, shape.nodes, exit_, nullptr, exit_near_, double_layer);
   shape.empty_velocity = shape.from_wall * empty_force_ + exit_field(single, double_layer);
 }
 
@@ -560,11 +554,11 @@ FlowState FlowSystem::flow(const Interaction &shape, const Vector &load, Memory 
 Vector FlowSystem::outer_velocity(const Targets &points, const Interaction &shape, const Vector &load,
                                   const FlowState &state) const {
   RowMatrix layer;
-  assemble_layer(Layer::single, points, shape.membrane, nullptr, near_, layer);
+  assemble_layer(ring_stokeslet, points, shape.membrane, nullptr, near_, layer);
   Vector velocity =
       empty_velocity(points) + layer * (stokeslet_factor / capillary_number_ * at_panels(load)).eval();
   if (has_inner_flow()) {
-    assemble_layer(Layer::dbl, points, shape.membrane, nullptr, near_, layer);
+    assemble_layer(ring_stresslet, points, shape.membrane, nullptr, near_, layer);
     velocity += (viscosity_ratio_ - 1) * (layer * at_panels(state.velocity));
   }
   if (has_wall()) {

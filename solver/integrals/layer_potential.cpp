@@ -1,5 +1,4 @@
 #include "integrals/layer_potential.hpp"
-#include "integrals/ring_kernel.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -79,18 +78,6 @@ KernelRow rows_of(KernelBlock &block) {
   return {block.row(0).data(), block.row(1).data(), block.row(2).data(), block.row(3).data()};
 }
 
-Rings rings_of(const Curve &curve, Eigen::Index first, Eigen::Index count) {
-  return {static_cast<int>(count), curve.x.data() + first, curve.r.data() + first,
-          curve.normal_x.data() + first, curve.normal_r.data() + first};
-}
-
-void evaluate(Layer layer, double x0, double r0, const Rings &rings, const KernelRow &out) {
-  if (layer == Layer::single)
-    ring_stokeslet(x0, r0, rings, out);
-  else
-    ring_stresslet(x0, r0, rings, out);
-}
-
 double squared_distance(double x0, double r0, const Curve &curve, Eigen::Index first, Eigen::Index count) {
   double nearest = std::numeric_limits<double>::infinity();
   for (Eigen::Index k = first; k < first + count; ++k) {
@@ -109,9 +96,9 @@ double near_factor(Eigen::Index points, double tolerance) {
 }
 
 // Weights of the panels that hold or touch a target on the curve. The kernel is
-// smooth - ln(m1) logarithmic with ln(m1) = ln(gap^2) + a smooth function (layer split of ring_kernel.hpp).
-KernelBlock integrate_self(Layer layer, const Targets &targets, Eigen::Index i, const Curve &curve,
-                           const SelfRule::Site &site) {
+// smooth - ln(m1) logarithmic with ln(m1) = ln(gap^2) + a smooth function (ring_kernel.hpp).
+KernelBlock integrate_self(const RingKernel &kernel, const Targets &targets, Eigen::Index i,
+                           const Curve &curve, const SelfRule::Site &site) {
   const double x0 = targets.x[i];
   const double r0 = targets.r[i];
   const Eigen::Index n = site.logarithm.size();
@@ -127,10 +114,7 @@ KernelBlock integrate_self(Layer layer, const Targets &targets, Eigen::Index i, 
 
   KernelBlock smooth(4, n);
   KernelBlock logarithmic(4, n);
-  if (layer == Layer::single)
-    ring_stokeslet_split(r0, rings, apart, rows_of(smooth), rows_of(logarithmic));
-  else
-    ring_stresslet_split(r0, rings, apart, rows_of(smooth), rows_of(logarithmic));
+  kernel.split(r0, rings, apart, rows_of(smooth), rows_of(logarithmic));
   const auto dx2 = apart.col(0).array().square();
   const auto dr2 = apart.col(1).array().square();
   const auto sum2 = (curve.r.segment(first, n).array() + r0).square();
@@ -151,18 +135,18 @@ NearRule::NearRule(Eigen::Index points, double tolerance) : factor_(near_factor(
   halves_[1] = lagrange_matrix(rule.nodes, (rule.nodes.array() + 1) / 2);
 }
 
-KernelBlock NearRule::integrate(Layer layer, double x0, double r0, const Curve &curve,
+KernelBlock NearRule::integrate(const RingKernel &kernel, double x0, double r0, const Curve &curve,
                                 Eigen::Index first) const {
   const Eigen::Index p = curve.panel_points;
   Geometry panel(p, 4);
   panel << curve.x.segment(first, p), curve.r.segment(first, p), curve.x_zeta.segment(first, p),
       curve.r_zeta.segment(first, p);
   const double half = curve.weights[first] / weights_[0];
-  return refine(layer, x0, r0, panel, half, 0);
+  return refine(kernel, x0, r0, panel, half, 0);
 }
 
-KernelBlock NearRule::refine(Layer layer, double x0, double r0, const Geometry &panel, double half,
-                             int depth) const {
+KernelBlock NearRule::refine(const RingKernel &kernel, double x0, double r0, const Geometry &panel,
+                             double half, int depth) const {
   // Below this fraction of a panel nothing is left to integrate: the logarithm's share is at rounding error.
   constexpr int deepest = 46;
   const Eigen::ArrayXd arc = (panel.col(2).array().square() + panel.col(3).array().square()).sqrt();
@@ -173,16 +157,16 @@ KernelBlock NearRule::refine(Layer layer, double x0, double r0, const Geometry &
   if (nearest < factor_ * half * arc.mean()) {
     KernelBlock sum = KernelBlock::Zero(4, panel.rows());
     for (const Matrix &child : halves_)
-      sum.noalias() += refine(layer, x0, r0, child * panel, half / 2, depth + 1) * child;
+      sum.noalias() += refine(kernel, x0, r0, child * panel, half / 2, depth + 1) * child;
     return sum;
   }
   const Eigen::ArrayXd normal_x = -panel.col(3).array() / arc;
   const Eigen::ArrayXd normal_r = panel.col(2).array() / arc;
   KernelBlock block(4, panel.rows());
-  evaluate(layer, x0, r0,
-           {static_cast<int>(panel.rows()), panel.col(0).data(), panel.col(1).data(), normal_x.data(),
-            normal_r.data()},
-           rows_of(block));
+  kernel.plain(x0, r0,
+               {static_cast<int>(panel.rows()), panel.col(0).data(), panel.col(1).data(), normal_x.data(),
+                normal_r.data()},
+               rows_of(block));
   const Eigen::ArrayXd area = half * weights_.array() * arc * panel.col(1).array();
   block.array().rowwise() *= area.transpose();
   return block;
@@ -234,7 +218,7 @@ double FixedNearRule::distance_to(Eigen::Index panel, double x0, double r0) cons
   return std::sqrt(squared_distance(x0, r0, curve_, first, curve_.panel_points));
 }
 
-KernelBlock FixedNearRule::integrate(Layer layer, double x0, double r0, Eigen::Index panel,
+KernelBlock FixedNearRule::integrate(const RingKernel &kernel, double x0, double r0, Eigen::Index panel,
                                      double distance) const {
   const Eigen::Index p = curve_.panel_points;
   // The parts' points may come nearer than those of the panel.
@@ -249,21 +233,21 @@ KernelBlock FixedNearRule::integrate(Layer layer, double x0, double r0, Eigen::I
   while (level <= levels && too_coarse())
     ++level;
   if (level > levels)
-    return rule_[0].integrate(layer, x0, r0, curve_, panel * p);
+    return rule_[0].integrate(kernel, x0, r0, curve_, panel * p);
   const auto &[fine, interpolation] = levels_[static_cast<std::size_t>(level) - 1];
   const Eigen::Index n = interpolation.rows();
   const Eigen::Index begin = panel * n;
-  KernelBlock kernel(4, n);
-  evaluate(layer, x0, r0, rings_of(fine, begin, n), rows_of(kernel));
+  KernelBlock values(4, n);
+  kernel.plain(x0, r0, rings_of(fine, begin, n), rows_of(values));
   KernelBlock block = KernelBlock::Zero(4, p);
   for (int component = 0; component < 4; ++component)
     for (Eigen::Index k = 0; k < n; ++k)
-      block.row(component) += (kernel(component, k) * fine.area[begin + k]) * interpolation.row(k);
+      block.row(component) += (values(component, k) * fine.area[begin + k]) * interpolation.row(k);
   return block;
 }
 
-void assemble_layer(Layer layer, const Targets &targets, const Curve &curve, const SelfRule *self,
-                    const NearRule &near, RowMatrix &matrix) {
+void assemble_layer(const RingKernel &kernel, const Targets &targets, const Curve &curve,
+                    const SelfRule *self, const NearRule &near, RowMatrix &matrix) {
   const Eigen::Index nt = targets.size();
   const Eigen::Index q = curve.size();
   const Eigen::Index p = curve.panel_points;
@@ -283,7 +267,7 @@ void assemble_layer(Layer layer, const Targets &targets, const Curve &curve, con
     const double r0 = targets.r[i];
     double *axial = matrix.row(i).data();
     double *radial = matrix.row(nt + i).data();
-    evaluate(layer, x0, r0, rings, {axial, axial + q, radial, radial + q});
+    kernel.plain(x0, r0, rings, {axial, axial + q, radial, radial + q});
     for (double *component : {axial, axial + q, radial, radial + q})
       Eigen::Map<Eigen::ArrayXd>(component, q) *= curve.area.array();
     const auto replace = [&](const KernelBlock &block, Eigen::Index first) {
@@ -299,7 +283,7 @@ void assemble_layer(Layer layer, const Targets &targets, const Curve &curve, con
       const SelfRule::Site &site = self->sites[static_cast<std::size_t>(i)];
       self_begin = site.first_point;
       self_end = site.first_point + site.logarithm.size();
-      replace(integrate_self(layer, targets, i, curve, site), self_begin);
+      replace(integrate_self(kernel, targets, i, curve, site), self_begin);
     }
     for (Eigen::Index k = 0; k < panels; ++k) {
       const Eigen::Index first = k * p;
@@ -308,7 +292,7 @@ void assemble_layer(Layer layer, const Targets &targets, const Curve &curve, con
       if (squared_distance(x0, r0, curve, first, 1) > sphere[k] * sphere[k])
         continue;
       if (squared_distance(x0, r0, curve, first, p) < reach[k] * reach[k])
-        replace(near.integrate(layer, x0, r0, curve, first), first);
+        replace(near.integrate(kernel, x0, r0, curve, first), first);
     }
   }
 }

@@ -1,13 +1,14 @@
 #pragma once
 // The integrals of eq. 16 as matrices: what densities at the quadrature points of a curve do to target
 // points. Every matrix has 2 n_t rows (axial, then radial velocity at the targets) and 2 Q columns (axial,
-// then radial density at the curve's points) and includes the area element; factors 1/(8 pi), 1/epsilon,
-// lambda - 1 are the caller's. Three kinds of panels are told apart:
+// then radial density at the curve's points) and includes the area element; 1/(8 pi) is the caller's.
+// ring_stokeslet makes the single, ring_stresslet the double layer. Three kinds of panels are told apart:
 //   far      the panel's own Gauss rule
 //   near     the panel is halved, with its polynomial interpolant, until its Gauss rule reaches the tolerance
 //   self     a target that lies on the curve: product weights for the logarithm on the panels that hold or
 //   touch it
 #include "geometry/quadrature.hpp"
+#include "integrals/ring_kernel.hpp"
 #include <functional>
 #include <vector>
 
@@ -55,8 +56,6 @@ SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta);
 // One component of `bend`, a row for each target, from the second derivative at any points.
 Matrix bend(const SelfRule &self, const std::function<Matrix(const Vector &zeta)> &second_derivative);
 
-enum class Layer { single, dbl };
-
 // Weights (kernel, area and interpolation) of points of a curve for one target: rows xx, xr, rx, rr as in
 // ring_kernel.hpp, a column a point.
 using KernelBlock = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::RowMajor>;
@@ -69,11 +68,13 @@ public:
   // How near a target may come to a panel of this arc length before the panel's own rule fails.
   double reach(double panel_length) const { return factor_ * panel_length / 2; }
   // The panel that begins at point `first`; any target, on the panel too.
-  KernelBlock integrate(Layer layer, double x0, double r0, const Curve &curve, Eigen::Index first) const;
+  KernelBlock integrate(const RingKernel &kernel, double x0, double r0, const Curve &curve,
+                        Eigen::Index first) const;
 
 private:
   using Geometry = Eigen::Matrix<double, Eigen::Dynamic, 4>; // columns x, r, dx/dzeta, dr/dzeta
-  KernelBlock refine(Layer layer, double x0, double r0, const Geometry &panel, double half, int depth) const;
+  KernelBlock refine(const RingKernel &kernel, double x0, double r0, const Geometry &panel, double half,
+                     int depth) const;
 
   double factor_;
   Vector weights_;
@@ -87,10 +88,10 @@ public:
   FixedNearRule(const Curve &curve, double tolerance);
   // Calls use(first point, weights) for each panel that the target is too near to.
   template <class Use>
-  void at_near_panels(Layer layer, double x0, double r0, Use &&use) const {
+  void at_near_panels(const RingKernel &kernel, double x0, double r0, Use &&use) const {
     for (Eigen::Index panel = 0; panel < reach_.size(); ++panel)
       if (const double distance = distance_to(panel, x0, r0); distance < reach_[panel]) {
-        KernelBlock weights = integrate(layer, x0, r0, panel, distance);
+        KernelBlock weights = integrate(kernel, x0, r0, panel, distance);
         use(panel * curve_.panel_points, weights);
       }
   }
@@ -98,7 +99,8 @@ public:
 private:
   // Of the nearest of the panel's points; infinite where the panel is surely out of reach.
   double distance_to(Eigen::Index panel, double x0, double r0) const;
-  KernelBlock integrate(Layer layer, double x0, double r0, Eigen::Index panel, double distance) const;
+  KernelBlock integrate(const RingKernel &kernel, double x0, double r0, Eigen::Index panel,
+                        double distance) const;
 
   static constexpr int levels = 4;
   struct Level {
@@ -114,7 +116,7 @@ private:
 
 // `self` is null when the targets are no fixed points of the curve. Targets nearer to a panel than its Gauss
 // rule can bear get the near rule, down to targets on the curve.
-void assemble_layer(Layer layer, const Targets &targets, const Curve &curve, const SelfRule *self,
-                    const NearRule &near, RowMatrix &matrix);
+void assemble_layer(const RingKernel &kernel, const Targets &targets, const Curve &curve,
+                    const SelfRule *self, const NearRule &near, RowMatrix &matrix);
 
 } // namespace capsule

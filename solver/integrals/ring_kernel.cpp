@@ -275,8 +275,9 @@ void by_separation(double r0, const Rings &rings, const Separations &apart, cons
 
 template <class Processor>
 RingKernels kernels_for(const std::string &instructions) {
-  return {instructions, by_position<Processor, Stokeslet>, by_position<Processor, Stresslet>,
-          by_separation<Processor, StokesletSplit>, by_separation<Processor, StressletSplit>};
+  return {instructions,
+          {by_position<Processor, Stokeslet>, by_separation<Processor, StokesletSplit>},
+          {by_position<Processor, Stresslet>, by_separation<Processor, StressletSplit>}};
 }
 
 const RingKernels &best() {
@@ -312,22 +313,18 @@ Separations separations(double x0, double r0, const Rings &rings) {
   return apart;
 }
 
-void ring_stokeslet(double x0, double r0, const Rings &rings, const KernelRow &out) {
-  best().stokeslet(x0, r0, rings, out);
-}
+const RingKernel ring_stokeslet = {
+    [](double x0, double r0, const Rings &rings, const KernelRow &out) {
+      best().stokeslet.plain(x0, r0, rings, out);
+    },
+    [](double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
+       const KernelRow &logarithmic) { best().stokeslet.split(r0, rings, apart, smooth, logarithmic); }};
 
-void ring_stresslet(double x0, double r0, const Rings &rings, const KernelRow &out) {
-  best().stresslet(x0, r0, rings, out);
-}
-
-void ring_stokeslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
-                          const KernelRow &logarithmic) {
-  best().stokeslet_split(r0, rings, apart, smooth, logarithmic);
-}
-
-void ring_stresslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
-                          const KernelRow &logarithmic) {
-  best().stresslet_split(r0, rings, apart, smooth, logarithmic);
-}
+const RingKernel ring_stresslet = {
+    [](double x0, double r0, const Rings &rings, const KernelRow &out) {
+      best().stresslet.plain(x0, r0, rings, out);
+    },
+    [](double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
+       const KernelRow &logarithmic) { best().stresslet.split(r0, rings, apart, smooth, logarithmic); }};
 
 } // namespace capsule

@@ -18,6 +18,7 @@
 // A ring that coincides with the target gives infinities or NaN: terms like dx^2/d^2 depend on the
 // direction there. Only the logarithmic parts have a limit, and return it. Nothing is thrown.
 #include "base/linear_algebra.hpp"
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -39,26 +40,34 @@ struct Rings {
   const double *normal_r;
 };
 
+// The rings through some points of a curve that has these members.
+template <class Curve>
+Rings rings_of(const Curve &curve, Eigen::Index first, Eigen::Index count) {
+  return {static_cast<int>(count), curve.x.data() + first, curve.r.data() + first,
+          curve.normal_x.data() + first, curve.normal_r.data() + first};
+}
+
 // The vector e from the target to the rings' points in its half plane, axial and radial, and e.n: three columns.
 using Separations = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 // By differences of positions.
 Separations separations(double x0, double r0, const Rings &rings);
 
-void ring_stokeslet(double x0, double r0, const Rings &rings, const KernelRow &out);
-void ring_stresslet(double x0, double r0, const Rings &rings, const KernelRow &out);
-void ring_stokeslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
-                          const KernelRow &logarithmic);
-void ring_stresslet_split(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
-                          const KernelRow &logarithmic);
+// A kernel as a value, in its plain and its split form.
+struct RingKernel {
+  void (*plain)(double x0, double r0, const Rings &rings, const KernelRow &out);
+  void (*split)(double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
+                const KernelRow &logarithmic);
+};
+extern const RingKernel ring_stokeslet, ring_stresslet;
 
-// The four kernels compiled for a class of processors. The functions above are the first of those that run
-// here; the others are for tests and benchmarks.
+// What the single layer has in front of the stokeslet in eq. 16. No kernel and no layer includes it.
+constexpr double stokeslet_factor = 1 / (8 * std::numbers::pi);
+
+// The kernels compiled for a class of processors. Those above are the first of those that run here; the others
+// are for tests and benchmarks.
 struct RingKernels {
   std::string instructions; // "avx512", "avx2", "baseline"
-  decltype(&ring_stokeslet) stokeslet;
-  decltype(&ring_stresslet) stresslet;
-  decltype(&ring_stokeslet_split) stokeslet_split;
-  decltype(&ring_stresslet_split) stresslet_split;
+  RingKernel stokeslet, stresslet;
 };
 std::vector<RingKernels> available_ring_kernels();
 

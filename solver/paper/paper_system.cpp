@@ -12,7 +12,6 @@ using Eigen::Index;
 
 constexpr int gauss_points = 5;
 constexpr int logarithm_points = 12;
-constexpr double stokeslet_factor = 1 / (8 * std::numbers::pi);
 
 // ---- Boundaries ----
 
@@ -123,8 +122,6 @@ ElementCurve make_exit(double exit_x, int elements, const ElementRules &rules) {
 
 // ---- Integrals over elements ----
 
-enum class Layer { single, dbl };
-
 // What the sources of a curve do to one target: kernels (columns xx, xr, rx, rr) with area and rule weights.
 using KernelTable = Eigen::Matrix<double, Eigen::Dynamic, 4>;
 struct TargetKernels {
@@ -138,21 +135,15 @@ KernelRow row_of(KernelTable &table, Index first = 0) {
   return {column(0), column(1), column(2), column(3)};
 }
 
-Rings rings_of(const ElementSamples &s, Index first, Index count) {
-  return {static_cast<int>(count), s.x.data() + first, s.r.data() + first, s.normal_x.data() + first,
-          s.normal_r.data() + first};
-}
-
 // One element that begins or ends at the target. With t the distance to the target in the parameter, the
 // kernel is
 //   smooth - ln(m1/t^2) logarithmic  +  2 ln(1/t) logarithmic,
 // Gauss's rule for the first two terms, the logarithmic rule for the third.
-void split_element(Layer layer, double x0, double r0, const ElementCurve &curve, Index element, bool at_first,
-                   const UnitRule &rule, KernelTable &gauss, KernelTable &logarithm) {
+void split_element(const RingKernel &kernel, double x0, double r0, const ElementCurve &curve, Index element,
+                   bool at_first, const UnitRule &rule, KernelTable &gauss, KernelTable &logarithm) {
   KernelTable smooth(logarithm_points, 4), logarithmic(logarithm_points, 4);
   const auto evaluate = [&](const Rings &rings) {
-    const auto kernel = layer == Layer::single ? ring_stokeslet_split : ring_stresslet_split;
-    kernel(r0, rings, separations(x0, r0, rings), row_of(smooth), row_of(logarithmic));
+    kernel.split(r0, rings, separations(x0, r0, rings), row_of(smooth), row_of(logarithmic));
   };
   const ElementSamples &graded = at_first ? curve.first : curve.last;
   evaluate(rings_of(graded, element * logarithm_points, logarithm_points));
@@ -170,18 +161,17 @@ void split_element(Layer layer, double x0, double r0, const ElementCurve &curve,
 }
 
 // `node`: the target's node on the curve, or -1. On the axis the kernels have no logarithm.
-void target_kernels(Layer layer, double x0, double r0, const ElementCurve &curve, Index node,
+void target_kernels(const RingKernel &kernel, double x0, double r0, const ElementCurve &curve, Index node,
                     const UnitRule &rule, TargetKernels &out) {
   const Index points = curve.gauss.x.size(), elements = points / gauss_points;
   out.gauss.resize(points, 4);
-  const auto kernel = layer == Layer::single ? ring_stokeslet : ring_stresslet;
-  kernel(x0, r0, rings_of(curve.gauss, 0, points), row_of(out.gauss));
+  kernel.plain(x0, r0, rings_of(curve.gauss, 0, points), row_of(out.gauss));
   out.gauss.array().colwise() *= curve.gauss.area.array();
   out.node = r0 > 0 ? node : -1;
   if (out.node > 0)
-    split_element(layer, x0, r0, curve, out.node - 1, false, rule, out.gauss, out.before);
+    split_element(kernel, x0, r0, curve, out.node - 1, false, rule, out.gauss, out.before);
   if (out.node >= 0 && out.node < elements)
-    split_element(layer, x0, r0, curve, out.node, true, rule, out.gauss, out.after);
+    split_element(kernel, x0, r0, curve, out.node, true, rule, out.gauss, out.after);
 }
 
 // Integrals of the kernels against the B-splines: (N + 3) x 4.
@@ -322,13 +312,13 @@ LoadSamples poiseuille(const ElementSamples &at) {
 void fixed_contribution(const PaperSystem &system, double x0, double r0, Index wall_node, Index exit_node,
                         Scratch &scratch) {
   const UnitRule &rule = system.rules.gauss;
-  target_kernels(Layer::single, x0, r0, system.wall, wall_node, rule, scratch.kernels);
+  target_kernels(ring_stokeslet, x0, r0, system.wall, wall_node, rule, scratch.kernels);
   against_shapes(scratch.kernels, system.rules, scratch.fixed.wall);
-  target_kernels(Layer::single, x0, r0, system.exit, exit_node, rule, scratch.kernels);
+  target_kernels(ring_stokeslet, x0, r0, system.exit, exit_node, rule, scratch.kernels);
   scratch.fixed.pressure = stokeslet_factor * against_density(scratch.kernels, system.exit_unit);
   scratch.fixed.right_side = stokeslet_factor * against_density(scratch.kernels, system.exit_shear);
   if (x0 != system.exit.x(0)) { // in the plane of the exit its stresslet vanishes
-    target_kernels(Layer::dbl, x0, r0, system.exit, exit_node, rule, scratch.kernels);
+    target_kernels(ring_stresslet, x0, r0, system.exit, exit_node, rule, scratch.kernels);
     scratch.fixed.right_side += against_density(scratch.kernels, system.exit_velocity);
   }
 }
@@ -339,7 +329,7 @@ void write_membrane(const PaperSystem &system, const ElementCurve &membrane, dou
                     Scratch &scratch, const Equation *equations[2]) {
   const Index n = system.membrane_elements;
   if (system.viscosity_ratio != 1) {
-    target_kernels(Layer::dbl, x0, r0, membrane, node, system.rules.gauss, scratch.kernels);
+    target_kernels(ring_stresslet, x0, r0, membrane, node, system.rules.gauss, scratch.kernels);
     against_shapes(scratch.kernels, system.rules, scratch.shapes);
     scratch.shapes *= 1 - system.viscosity_ratio;
   } else {
@@ -365,7 +355,7 @@ void write_membrane(const PaperSystem &system, const ElementCurve &membrane, dou
 // Adds the single layer of the membrane's load to the right sides.
 void add_load(const PaperSystem &system, const ElementCurve &membrane, const Density &load, double x0,
               double r0, Index node, Scratch &scratch, const Equation *equations[2]) {
-  target_kernels(Layer::single, x0, r0, membrane, node, system.rules.gauss, scratch.kernels);
+  target_kernels(ring_stokeslet, x0, r0, membrane, node, system.rules.gauss, scratch.kernels);
   const Eigen::Vector2d velocity =
       stokeslet_factor / system.capillary_number * against_density(scratch.kernels, load);
   for (Index component = 0; component < 2; ++component)

@@ -55,9 +55,9 @@ Vector uniform_axial(Eigen::Index n) {
   return field;
 }
 
-RowMatrix assemble(Layer layer, const Targets &targets, const Spheroid &s, bool on_surface) {
+RowMatrix assemble(const RingKernel &kernel, const Targets &targets, const Spheroid &s, bool on_surface) {
   RowMatrix matrix;
-  assemble_layer(layer, targets, s.curve, on_surface ? &s.self : nullptr,
+  assemble_layer(kernel, targets, s.curve, on_surface ? &s.self : nullptr,
                  NearRule(s.curve.panel_points, 1e-12), matrix);
   return matrix;
 }
@@ -79,10 +79,10 @@ BOOST_AUTO_TEST_CASE(single_layer_of_the_normal_vanishes_everywhere) {
     const double b = a == 0.8 ? 0.8 : 1.3757;
     const Spheroid s = spheroid(a, b, 64);
     const Vector normal = normal_density(s.curve);
-    BOOST_TEST((assemble(Layer::single, s.nodes, s, true) * normal).cwiseAbs().maxCoeff() < 1e-10);
+    BOOST_TEST((assemble(ring_stokeslet, s.nodes, s, true) * normal).cwiseAbs().maxCoeff() < 1e-10);
     for (const double distance : {-0.05, 1e-3, 1e-5, 0.3, 3.0}) {
       const Targets off = shifted(s, a, b, distance);
-      BOOST_TEST((assemble(Layer::single, off, s, false) * normal).cwiseAbs().maxCoeff() < 1e-10);
+      BOOST_TEST((assemble(ring_stokeslet, off, s, false) * normal).cwiseAbs().maxCoeff() < 1e-10);
     }
   }
 }
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(single_layer_of_the_normal_vanishes_everywhere) {
 BOOST_AUTO_TEST_CASE(uniform_density_on_a_sphere_translates_it) {
   const double a = 0.7;
   const Spheroid s = spheroid(a, a, 48);
-  const Vector velocity = assemble(Layer::single, s.nodes, s, true) * uniform_axial(s.curve.size());
+  const Vector velocity = assemble(ring_stokeslet, s.nodes, s, true) * uniform_axial(s.curve.size());
   BOOST_TEST((velocity - 16 * pi * a / 3 * uniform_axial(s.nodes.size())).cwiseAbs().maxCoeff() < 1e-10);
 }
 
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(drag_of_a_spheroid) {
   Vector traction = Vector::Zero(2 * s.curve.size());
   traction.head(s.curve.size()) = 6 * pi * b * shape / (4 * pi * a * b * b) /
                                   (x.square() / std::pow(a, 4) + r.square() / std::pow(b, 4)).sqrt();
-  const Vector velocity = assemble(Layer::single, s.nodes, s, true) * traction / (8 * pi);
+  const Vector velocity = assemble(ring_stokeslet, s.nodes, s, true) * traction / (8 * pi);
   BOOST_TEST((velocity - uniform_axial(s.nodes.size())).cwiseAbs().maxCoeff() < 1e-9);
 }
 
@@ -120,13 +120,14 @@ BOOST_AUTO_TEST_CASE(gauss_identity_of_the_stresslet) {
   const Spheroid s = spheroid(a, b, 96);
   const Vector uniform = uniform_axial(s.curve.size());
   const Vector expected = uniform_axial(s.nodes.size());
-  BOOST_TEST((assemble(Layer::dbl, s.nodes, s, true) * uniform - 0.5 * expected).cwiseAbs().maxCoeff() <
+  BOOST_TEST((assemble(ring_stresslet, s.nodes, s, true) * uniform - 0.5 * expected).cwiseAbs().maxCoeff() <
              1e-9);
   for (const double distance : {1e-4, 0.02, 0.5})
-    BOOST_TEST((assemble(Layer::dbl, shifted(s, a, b, distance), s, false) * uniform).cwiseAbs().maxCoeff() <
-               1e-9);
+    BOOST_TEST(
+        (assemble(ring_stresslet, shifted(s, a, b, distance), s, false) * uniform).cwiseAbs().maxCoeff() <
+        1e-9);
   for (const double depth : {1e-4, 0.02})
-    BOOST_TEST((assemble(Layer::dbl, shifted(s, a, b, -depth), s, false) * uniform - expected)
+    BOOST_TEST((assemble(ring_stresslet, shifted(s, a, b, -depth), s, false) * uniform - expected)
                    .cwiseAbs()
                    .maxCoeff() < 1e-9);
 }
@@ -142,9 +143,9 @@ BOOST_AUTO_TEST_CASE(targets_beside_a_point_of_the_rule) {
     for (Eigen::Index k = 0; k < zeta.size(); ++k)
       zeta[k] = s.panels.points[12 * (polar + k) + k % 12] + gap;
     put_targets(s, a, b, zeta);
-    const Vector moved = assemble(Layer::dbl, s.nodes, s, true) * uniform_axial(s.curve.size());
+    const Vector moved = assemble(ring_stresslet, s.nodes, s, true) * uniform_axial(s.curve.size());
     BOOST_TEST((moved - 0.5 * uniform_axial(zeta.size())).cwiseAbs().maxCoeff() < 1e-11);
-    BOOST_TEST((assemble(Layer::single, s.nodes, s, true) * normal_density(s.curve)).cwiseAbs().maxCoeff() <
+    BOOST_TEST((assemble(ring_stokeslet, s.nodes, s, true) * normal_density(s.curve)).cwiseAbs().maxCoeff() <
                1e-10);
   }
 }
@@ -162,9 +163,9 @@ BOOST_AUTO_TEST_CASE(fixed_near_rule_keeps_the_single_layer_of_the_normal_at_zer
   for (const double share : {1.0 / 3, 1.0 / 20, 1.0 / 200, 1.0 / 2000}) {
     const Targets off = shifted(s, a, b, share * panel);
     RowMatrix matrix;
-    assemble_layer(Layer::single, off, s.curve, nullptr, never, matrix);
+    assemble_layer(ring_stokeslet, off, s.curve, nullptr, never, matrix);
     for (Eigen::Index i = 0; i < off.size(); ++i)
-      fixed.at_near_panels(Layer::single, off.x[i], off.r[i],
+      fixed.at_near_panels(ring_stokeslet, off.x[i], off.r[i],
                            [&](Eigen::Index first, const KernelBlock &block) {
                              matrix.row(i).segment(first, p) = block.row(0);
                              matrix.row(i).segment(q + first, p) = block.row(1);
@@ -182,8 +183,8 @@ BOOST_AUTO_TEST_CASE(near_rule_meets_the_surface) {
   const Spheroid s = spheroid(a, a, 48);
   Vector density(2 * s.curve.size());
   density << s.curve.x.array().cube(), (s.curve.x.array().square() * s.curve.r.array());
-  const Vector on = assemble(Layer::single, s.nodes, s, true) * density;
-  const Vector off = assemble(Layer::single, shifted(s, a, a, 1e-10), s, false) * density;
+  const Vector on = assemble(ring_stokeslet, s.nodes, s, true) * density;
+  const Vector off = assemble(ring_stokeslet, shifted(s, a, a, 1e-10), s, false) * density;
   BOOST_TEST((on - off).cwiseAbs().maxCoeff() < 1e-8);
 }
 

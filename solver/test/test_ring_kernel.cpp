@@ -86,15 +86,14 @@ double ln_m1(const Point &target, const Ring &ring) {
   return m < 0.5 ? std::log1p(-m) : 2 * std::log(nearest / farthest);
 }
 
-Components single(decltype(RingKernels::stokeslet) kernel, const Point &target, const Ring &ring) {
+Components single(decltype(RingKernel::plain) kernel, const Point &target, const Ring &ring) {
   Components c{};
   kernel(target.x, target.r, {1, &ring.x, &ring.r, &ring.normal_x, &ring.normal_r},
          {&c.xx, &c.xr, &c.rx, &c.rr});
   return c;
 }
 
-Components single_split_sum(decltype(RingKernels::stokeslet_split) kernel, const Point &target,
-                            const Ring &ring) {
+Components single_split_sum(decltype(RingKernel::split) kernel, const Point &target, const Ring &ring) {
   Components p{};
   Components q{};
   const Rings rings{1, &ring.x, &ring.r, &ring.normal_x, &ring.normal_r};
@@ -276,7 +275,7 @@ Velocity weighted_sum(const Surface &surface, const Rows &rows, const Density &d
 }
 
 // Integral over the surface of a kernel times a density (axial and radial): a velocity at the target.
-Velocity potential(decltype(RingKernels::stokeslet) kernel, const Point &target, const Surface &surface,
+Velocity potential(decltype(RingKernel::plain) kernel, const Point &target, const Surface &surface,
                    const Density &density) {
   Rows rows(surface.rings.size());
   kernel(target.x, target.r, surface.rings.view(), rows.view());
@@ -285,8 +284,8 @@ Velocity potential(decltype(RingKernels::stokeslet) kernel, const Point &target,
 
 // The same on the surface: the smooth part with plain panels, which shows that it is smooth; the logarithmic
 // part, whose factor ln(m1) is not, with graded ones.
-Velocity potential_on_surface(decltype(RingKernels::stokeslet_split) kernel, const Ellipse &ellipse,
-                              double zeta, const Density &density) {
+Velocity potential_on_surface(decltype(RingKernel::split) kernel, const Ellipse &ellipse, double zeta,
+                              const Density &density) {
   const Point target = ellipse.at(zeta);
   Velocity velocity{0, 0};
   for (const double end : {0.0, pi}) {
@@ -342,13 +341,13 @@ BOOST_AUTO_TEST_CASE(kernels_equal_brute_force) {
     for (const RingKernels &kernels : available_ring_kernels()) {
       BOOST_TEST_CONTEXT(c.name << ", " << kernels.instructions << ": target " << c.target.x << ' '
                                 << c.target.r << ", ring " << c.ring.x << ' ' << c.ring.r) {
-        BOOST_TEST(distance(single(kernels.stokeslet, c.target, c.ring), exact.stokeslet) <
+        BOOST_TEST(distance(single(kernels.stokeslet.plain, c.target, c.ring), exact.stokeslet) <
                    stokeslet_tolerance);
-        BOOST_TEST(distance(single(kernels.stresslet, c.target, c.ring), exact.stresslet) <
+        BOOST_TEST(distance(single(kernels.stresslet.plain, c.target, c.ring), exact.stresslet) <
                    stresslet_tolerance);
-        BOOST_TEST(distance(single_split_sum(kernels.stokeslet_split, c.target, c.ring), exact.stokeslet) <
+        BOOST_TEST(distance(single_split_sum(kernels.stokeslet.split, c.target, c.ring), exact.stokeslet) <
                    stokeslet_tolerance);
-        BOOST_TEST(distance(single_split_sum(kernels.stresslet_split, c.target, c.ring), exact.stresslet) <
+        BOOST_TEST(distance(single_split_sum(kernels.stresslet.split, c.target, c.ring), exact.stresslet) <
                    stresslet_tolerance);
       }
     }
@@ -359,12 +358,14 @@ BOOST_AUTO_TEST_CASE(public_functions_are_the_first_available_set) {
   const RingKernels best = available_ring_kernels().front();
   const Point target{0.1, 0.4};
   const Ring ring{0.3, 0.7, 0.6, 0.8};
-  BOOST_TEST(distance(single(ring_stokeslet, target, ring), single(best.stokeslet, target, ring)) == 0);
-  BOOST_TEST(distance(single(ring_stresslet, target, ring), single(best.stresslet, target, ring)) == 0);
-  BOOST_TEST(distance(single_split_sum(ring_stokeslet_split, target, ring),
-                      single_split_sum(best.stokeslet_split, target, ring)) == 0);
-  BOOST_TEST(distance(single_split_sum(ring_stresslet_split, target, ring),
-                      single_split_sum(best.stresslet_split, target, ring)) == 0);
+  BOOST_TEST(
+      distance(single(ring_stokeslet.plain, target, ring), single(best.stokeslet.plain, target, ring)) == 0);
+  BOOST_TEST(
+      distance(single(ring_stresslet.plain, target, ring), single(best.stresslet.plain, target, ring)) == 0);
+  BOOST_TEST(distance(single_split_sum(ring_stokeslet.split, target, ring),
+                      single_split_sum(best.stokeslet.split, target, ring)) == 0);
+  BOOST_TEST(distance(single_split_sum(ring_stresslet.split, target, ring),
+                      single_split_sum(best.stresslet.split, target, ring)) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(any_number_of_rings) {
@@ -379,9 +380,9 @@ BOOST_AUTO_TEST_CASE(any_number_of_rings) {
       Rows rows(most + 1);
       std::fill(rows.rr.begin(), rows.rr.end(), untouched);
       const Point target{0.33, 0.44};
-      kernels.stresslet(target.x, target.r, rings.view(), rows.view());
+      kernels.stresslet.plain(target.x, target.r, rings.view(), rows.view());
       for (int k = 0; k < count; ++k) {
-        const Components one = single(kernels.stresslet, target, rings[k]);
+        const Components one = single(kernels.stresslet.plain, target, rings[k]);
         BOOST_TEST(distance(rows[k], one) <= 1e-15 * largest(one));
       }
       BOOST_TEST(rows.rr[count] == untouched);
@@ -391,15 +392,16 @@ BOOST_AUTO_TEST_CASE(any_number_of_rings) {
 
 BOOST_AUTO_TEST_CASE(reciprocity) {
   for (const Case &c : cases()) {
-    const Components there = single(ring_stokeslet, c.target, c.ring);
-    const Components back = single(ring_stokeslet, {c.ring.x, c.ring.r}, {c.target.x, c.target.r, 0, 0});
+    const Components there = single(ring_stokeslet.plain, c.target, c.ring);
+    const Components back =
+        single(ring_stokeslet.plain, {c.ring.x, c.ring.r}, {c.target.x, c.target.r, 0, 0});
     BOOST_TEST(distance(there, {back.xx, back.rx, back.xr, back.rr}) < 2e-15 * largest(there));
   }
 }
 
 BOOST_AUTO_TEST_CASE(fields_are_free_of_divergence) {
   const Ring ring{0.2, 0.9, 0.6, -0.8};
-  for (const auto kernel : {ring_stokeslet, ring_stresslet}) {
+  for (const auto kernel : {ring_stokeslet.plain, ring_stresslet.plain}) {
     for (const Point p : {Point{-0.7, 0.5}, Point{1.1, 0.3}, Point{0.2, 1.9}}) {
       const auto at = [&](double x, double r) { return single(kernel, {x, r}, ring); };
       const double axial = derivative([&](double x) { return at(x, p.r).xx; }, p.x) +
@@ -415,12 +417,12 @@ BOOST_AUTO_TEST_CASE(fields_are_free_of_divergence) {
 BOOST_AUTO_TEST_CASE(constant_pressure_moves_nothing) {
   const Ellipse ellipsoid{0.5, 0.9};
   for (const Point target : {Point{0.1, 0.3}, Point{0.2, 0}, Point{0.7, 0.7}, Point{-2, 0}}) {
-    const auto [vx, vr] = potential(ring_stokeslet, target, whole_surface(ellipsoid), along_normal);
+    const auto [vx, vr] = potential(ring_stokeslet.plain, target, whole_surface(ellipsoid), along_normal);
     BOOST_TEST(std::abs(vx) < 2e-14);
     BOOST_TEST(std::abs(vr) < 2e-14);
   }
   for (const double zeta : {0.3, 0.7, 2.0}) {
-    const auto [vx, vr] = potential_on_surface(ring_stokeslet_split, ellipsoid, zeta, along_normal);
+    const auto [vx, vr] = potential_on_surface(ring_stokeslet.split, ellipsoid, zeta, along_normal);
     BOOST_TEST(std::abs(vx) < 2e-13);
     BOOST_TEST(std::abs(vr) < 2e-13);
   }
@@ -434,10 +436,10 @@ BOOST_AUTO_TEST_CASE(even_load_on_a_sphere) {
     BOOST_TEST(std::abs(velocity[1]) < 2e-13);
   };
   for (const Point target : {Point{0.1, 0.3}, Point{0.3, 0}}) {
-    check(potential(ring_stokeslet, target, whole_surface(sphere), along_axis));
+    check(potential(ring_stokeslet.plain, target, whole_surface(sphere), along_axis));
   }
   for (const double zeta : {0.3, 0.7, 2.0}) {
-    check(potential_on_surface(ring_stokeslet_split, sphere, zeta, along_axis));
+    check(potential_on_surface(ring_stokeslet.split, sphere, zeta, along_axis));
   }
 }
 
@@ -449,13 +451,13 @@ BOOST_AUTO_TEST_CASE(double_layer_of_a_constant) {
     BOOST_TEST(std::abs(velocity[1]) < tolerance);
   };
   for (const Point target : {Point{0.1, 0.3}, Point{-0.2, 0}}) {
-    check(potential(ring_stresslet, target, whole_surface(ellipsoid), along_axis), 1, 1e-13);
+    check(potential(ring_stresslet.plain, target, whole_surface(ellipsoid), along_axis), 1, 1e-13);
   }
   for (const Point target : {Point{0.7, 0.7}, Point{-1, 0}}) {
-    check(potential(ring_stresslet, target, whole_surface(ellipsoid), along_axis), 0, 1e-13);
+    check(potential(ring_stresslet.plain, target, whole_surface(ellipsoid), along_axis), 0, 1e-13);
   }
   for (const double zeta : {0.3, 0.7, 2.0}) {
-    check(potential_on_surface(ring_stresslet_split, ellipsoid, zeta, along_axis), 0.5, 1e-11);
+    check(potential_on_surface(ring_stresslet.split, ellipsoid, zeta, along_axis), 0.5, 1e-11);
   }
 }
 
@@ -471,8 +473,8 @@ BOOST_AUTO_TEST_CASE(greens_representation_of_a_flow) {
   };
   for (const Point target :
        {Point{0.1, 0.3}, Point{-0.2, 0}, Point{0.05, 0.55}, Point{0.7, 0.7}, Point{0.9, 0}}) {
-    const auto [sx, sr] = potential(ring_stokeslet, target, body, traction);
-    const auto [dx, dr] = potential(ring_stresslet, target, body, velocity);
+    const auto [sx, sr] = potential(ring_stokeslet.plain, target, body, traction);
+    const auto [dx, dr] = potential(ring_stresslet.plain, target, body, velocity);
     const bool inside = std::hypot(target.x / ellipsoid.length, target.r / ellipsoid.radius) < 1;
     const auto exact = inside ? velocity({target.x, target.r, 0, 0}) : Velocity{0, 0};
     BOOST_TEST(std::abs(sx / (8 * pi) + dx - exact[0]) < 1e-12);
@@ -482,8 +484,8 @@ BOOST_AUTO_TEST_CASE(greens_representation_of_a_flow) {
 
 BOOST_AUTO_TEST_CASE(far_ring_acts_like_a_point) {
   const double far = 1e7;
-  const Components stokeslet = single(ring_stokeslet, {0, 0.3}, {far, 0.5, 0, 0});
-  const Components stresslet = single(ring_stresslet, {0, 0.3}, {far, 0.5, 1, 0});
+  const Components stokeslet = single(ring_stokeslet.plain, {0, 0.3}, {far, 0.5, 0, 0});
+  const Components stresslet = single(ring_stresslet.plain, {0, 0.3}, {far, 0.5, 1, 0});
   BOOST_TEST(std::abs(stokeslet.xx * far / (4 * pi) - 1) < 1e-13);
   BOOST_TEST(std::abs(stresslet.xx * far * far / 1.5 - 1) < 1e-13);
 }
@@ -495,7 +497,7 @@ BOOST_AUTO_TEST_CASE(at_the_target_only_the_logarithmic_part_has_a_value) {
   const double curvature = 0.7;
   const auto apart = [&](double d) { return Separations{{0.8 * d, -0.6 * d, curvature / 2 * d * d}}; };
   for (const RingKernels &kernels : available_ring_kernels()) {
-    for (const auto kernel : {kernels.stokeslet_split, kernels.stresslet_split}) {
+    for (const auto kernel : {kernels.stokeslet.split, kernels.stresslet.split}) {
       Rows smooth(1), logarithmic(1), smooth_beside(1), logarithmic_beside(1);
       kernel(ring.r, rings, apart(1e-9), smooth_beside.view(), logarithmic_beside.view());
       kernel(ring.r, rings, apart(1e-30), smooth.view(), logarithmic.view());
@@ -505,7 +507,7 @@ BOOST_AUTO_TEST_CASE(at_the_target_only_the_logarithmic_part_has_a_value) {
       BOOST_TEST(std::isnan(smooth.rr[0]));
       BOOST_TEST(distance(logarithmic[0], logarithmic_beside[0]) < 1e-8);
     }
-    BOOST_TEST(!std::isfinite(single(kernels.stokeslet, {ring.x, ring.r}, ring).xx));
-    BOOST_TEST(!std::isfinite(single(kernels.stresslet, {ring.x, ring.r}, ring).xx));
+    BOOST_TEST(!std::isfinite(single(kernels.stokeslet.plain, {ring.x, ring.r}, ring).xx));
+    BOOST_TEST(!std::isfinite(single(kernels.stresslet.plain, {ring.x, ring.r}, ring).xx));
   }
 }

@@ -40,7 +40,7 @@ Vector density(const Panels &panels) {
 }
 
 // Velocity at points outside the widest place, at the given distance from the curve and between its points.
-Vector velocity(Layer layer, const Panels &panels, double film, double tolerance) {
+Vector velocity(const RingKernel &kernel, const Panels &panels, double film, double tolerance) {
   Targets targets;
   constexpr int places = 9;
   targets.x = Vector::LinSpaced(places, -0.17, 0.23); // across a panel
@@ -56,7 +56,7 @@ Vector velocity(Layer layer, const Panels &panels, double film, double tolerance
   }
   RowMatrix matrix;
   const Curve curve = spheroid(panels);
-  assemble_layer(layer, targets, curve, nullptr, NearRule(curve.panel_points, tolerance), matrix);
+  assemble_layer(kernel, targets, curve, nullptr, NearRule(curve.panel_points, tolerance), matrix);
   return matrix * density(panels);
 }
 
@@ -65,9 +65,9 @@ Panels uniform_panels(int count, int on_a_panel = points) {
 }
 
 // So many panels that Gauss's rule alone bears the film.
-Vector exact_velocity(Layer layer, double film) {
+Vector exact_velocity(const RingKernel &kernel, double film) {
   const int count = std::max(64, static_cast<int>(std::ceil(half_length * pi / film)));
-  return velocity(layer, uniform_panels(count), film, plain);
+  return velocity(kernel, uniform_panels(count), film, plain);
 }
 
 bool quadrature(const std::string &directory) {
@@ -82,17 +82,19 @@ bool quadrature(const std::string &directory) {
   Table table("layer,points,tolerance,film_over_panel,error");
   double worst = 0;
   double worst_plain = 0;
-  for (const Layer layer : {Layer::single, Layer::dbl})
+  const std::vector<std::pair<std::string, RingKernel>> layers{{"single", ring_stokeslet},
+                                                               {"double", ring_stresslet}};
+  for (const auto &[layer, kernel] : layers)
     for (int k = 0; k < 56; ++k) { // down to a thousandth of a panel
       const double ratio = std::pow(2, 1 - 0.2 * k);
       const double film = ratio * panel;
-      const Vector exact = exact_velocity(layer, film);
+      const Vector exact = exact_velocity(kernel, film);
       for (const Rule &rule : rules) {
         const Panels panels = uniform_panels(panel_count, rule.points);
-        const double error = (velocity(layer, panels, film, rule.tolerance) - exact).cwiseAbs().maxCoeff() /
+        const double error = (velocity(kernel, panels, film, rule.tolerance) - exact).cwiseAbs().maxCoeff() /
                              exact.cwiseAbs().maxCoeff();
-        table.add(fmt::format("{},{},{:g},{:.5e},{:.3e}", layer == Layer::single ? "single" : "double",
-                              rule.points, rule.tolerance, ratio, std::max(error, 1e-17)));
+        table.add(fmt::format("{},{},{:g},{:.5e},{:.3e}", layer, rule.points, rule.tolerance, ratio,
+                              std::max(error, 1e-17)));
         if (rule.tolerance == plain)
           worst_plain = std::max(worst_plain, error);
         else
