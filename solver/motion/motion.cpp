@@ -3,6 +3,7 @@
 #include "motion/dynamics.hpp"
 #include "motion/error_estimate.hpp"
 #include "motion/time_step.hpp"
+#include "observe/gauge.hpp"
 #include "scene/resolution.hpp"
 #include <algorithm>
 #include <cmath>

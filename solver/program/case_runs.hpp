@@ -48,5 +48,4 @@ struct RunState {
 };
 RunState state_of(const RunInput &run, const RunOptions &options);
 
-
 } // namespace capsule
