@@ -3,7 +3,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 failures=0
-# `FlowSystem::layers`, `membrane.cpp`: every word that is a name in C++ or the start of a file's name.
+# `Wall::response`, `membrane.cpp`: every word that is a name in C++ or the start of a file's name.
 for name in $(grep -o '`[A-Za-z_:.]*`' paper-notes/equations.md | tr -d '`' | sed 's/::/ /g' | tr ' ' '\n' | sort -u); do
   case $name in
     *...) name=${name%...}; grep -rqE "\b$name" solver && continue ;;

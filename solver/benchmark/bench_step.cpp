@@ -1,8 +1,8 @@
 // Time of what a step is made of, for Table 1's capsule at the mouth: assembly, velocity, Jacobian and its factors, a
 // whole step of each preset.
-#include "flow/flow.hpp"
 #include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
+#include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"
 
 #include <benchmark/benchmark.h>
@@ -29,9 +29,9 @@ Case asked_for(const benchmark::State &state) {
 void assembly(benchmark::State &state) {
   const Case physics = asked_for(state);
   const Dynamics dynamics = make_dynamics(physics);
-  const FlowSystem system(physics, dynamics.scene->membrane.basis, choose_resolution(physics).flow);
+  const Flow flow = make_flow(physics, dynamics.scene->membrane.basis, choose_resolution(physics).flow);
   for ([[maybe_unused]] auto _ : state)
-    benchmark::DoNotOptimize(system.interact(dynamics.scene->start));
+    benchmark::DoNotOptimize(flow.interact(dynamics.scene->start));
 }
 
 void load(benchmark::State &state) {

@@ -63,6 +63,7 @@ using KernelBlock = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::RowMajor>;
 // The near rule for panels of p points: which targets need it, and the weights that it gives.
 class NearRule {
 public:
+  NearRule() = default;
   // tolerance: relative accuracy asked for.
   NearRule(Eigen::Index points, double tolerance);
   // How near a target may come to a panel of this arc length before the panel's own rule fails.
@@ -76,7 +77,7 @@ private:
   KernelBlock refine(const RingKernel &kernel, double x0, double r0, const Geometry &panel, double half,
                      int depth) const;
 
-  double factor_;
+  double factor_ = 0;
   Vector weights_;
   Matrix halves_[2]; // values on a half from those on the whole panel
 };

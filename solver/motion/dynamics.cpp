@@ -1,7 +1,7 @@
 #include "motion/dynamics.hpp"
-#include "flow/flow.hpp"
 #include "membrane/load.hpp"
 #include "paper/paper_system.hpp"
+#include "scene/make_flow.hpp"
 #include <utility>
 
 namespace capsule {
@@ -11,32 +11,37 @@ namespace {
 constexpr Advice advice{.at_the_wall = "try a smaller accuracy or a finer mesh",
                         .at_the_end = "move pore.exit_x away"};
 
+// What the flow's iterations reuse from earlier shapes: of the velocity, and of the second route to the pressure drop.
+struct RecycledFlow {
+  Recycled velocity, traction;
+};
+
 Dynamics standard_dynamics(const Case &physics) {
   Dynamics dynamics;
   dynamics.scene = std::make_shared<const Scene>(make_scene(physics));
   const auto scene = dynamics.scene;
-  const auto system =
-      std::make_shared<const FlowSystem>(physics, scene->membrane.basis, choose_resolution(physics).flow);
-  const auto memory = std::make_shared<FlowSystem::Memory>();
+  const auto flow = std::make_shared<const Flow>(
+      make_flow(physics, scene->membrane.basis, choose_resolution(physics).flow));
+  const auto recycled = std::make_shared<RecycledFlow>();
   const FlowType type = physics.flow.type;
-  dynamics.forget = [memory] { *memory = {}; };
-  dynamics.flow = [type, system, scene, memory](const Vector &position) {
+  dynamics.forget = [recycled] { *recycled = {}; };
+  dynamics.flow = [type, flow, scene, recycled](const Vector &position) {
     require_capsule(scene->pore, position, advice);
-    return system->flow(system->interact(place_in_flow(type, position)),
-                        membrane_load(scene->membrane, position), *memory);
+    return flow->solve(flow->interact(place_in_flow(type, position)),
+                       membrane_load(scene->membrane, position), recycled->velocity);
   };
-  dynamics.report = [type, system, scene, memory](const Vector &position, bool regular) {
-    const FlowSystem::Interaction shape = system->interact(place_in_flow(type, position));
+  dynamics.report = [type, flow, scene, recycled](const Vector &position, bool regular) {
+    const Interaction interaction = flow->interact(place_in_flow(type, position));
     const Vector load = membrane_load(scene->membrane, position);
-    FlowSystem::Memory copy = *memory;
-    FlowState state = system->flow(shape, load, copy);
-    state.pressure_drop_reciprocal = system->reciprocal_pressure_drop(shape, load, state.velocity, copy);
+    RecycledFlow copy = *recycled;
+    FlowState state = flow->solve(interaction, load, copy.velocity);
+    state.pressure_drop_reciprocal = flow->reciprocal_pressure_drop(interaction, load, state, copy.traction);
     if (regular)
-      memory->traction = std::move(copy.traction);
+      recycled->traction = std::move(copy.traction);
     return state;
   };
-  dynamics.jacobian = [system, scene, memory](const Vector &position) -> Matrix {
-    return system->mobility(system->interact(position), *memory) *
+  dynamics.jacobian = [flow, scene, recycled](const Vector &position) -> Matrix {
+    return flow->mobility(flow->interact(position), recycled->velocity) *
            frozen_load_jacobian(scene->membrane, position, 1);
   };
   return dynamics;

@@ -1,7 +1,8 @@
 #pragma once
 // From the accuracy asked for to mesh, quadrature and time tolerance. Keys of the case override what they
 // name. How the numbers were found: paper-notes/methods.md.
-#include "flow/flow.hpp"
+#include "case/case.hpp"
+#include "flow/flow_resolution.hpp"
 
 namespace capsule {
 

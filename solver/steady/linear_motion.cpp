@@ -138,7 +138,7 @@ Matrix advance_of_inner_flow(const Frame &at_nodes, const Vector &shear, const V
 
 // t.sigma n inside: the traction that goes with the velocity there, S sigma n/(8 pi) = v/2 - D v; a
 // pressure is free in it.
-Vector inner_shear(const FlowSystem::Layers &layers, const Frame &at_nodes, const Vector &area,
+Vector inner_shear(const NodalLayers &layers, const Frame &at_nodes, const Vector &area,
                    const Vector &velocity) {
   const Eigen::Index n = area.size();
   Vector normal(2 * n);
@@ -152,23 +152,23 @@ Vector inner_shear(const FlowSystem::Layers &layers, const Frame &at_nodes, cons
 
 } // namespace
 
-LinearMotion linear_motion(const FlowSystem &flow, const FlowSystem::Interaction &shape,
-                           const Membrane &membrane, const Sampling &panels, const Vector &position,
+LinearMotion linear_motion(const Interaction &interaction, const Membrane &membrane, const Vector &position,
                            const Vector &velocity, double capillary_number) {
   const Vector load = membrane_load(membrane, position) / capillary_number;
   const Frame at_nodes = frame_at(membrane.at_nodes, position, load);
-  const Frame at_panels = frame_at(panels, position, load);
+  const Frame at_panels = frame_at(interaction.mesh().parts[0].at_panels, position, load);
   const Matrix nodal_change = load_jacobian(membrane, position, capillary_number);
   const Matrix change = carried_load_change(at_nodes, nodal_change, load);
   const Matrix jump = slip(at_nodes);
 
-  const FlowSystem::Layers layers = flow.layers(shape);
+  const NodalLayers layers = nodal_layers(interaction);
   const Vector shear = inner_shear(layers, at_nodes, nodal_area(membrane, position), velocity);
   Matrix equal_viscosities =
       layers.single * change - 0.5 * jump - layers.dbl * jump +
-      shape.single_mm * beyond_nodes(at_panels, carried_load_change(at_panels, nodal_change, load), change) /
+      interaction.single_from_panels() *
+          beyond_nodes(at_panels, carried_load_change(at_panels, nodal_change, load), change) /
           (8 * std::numbers::pi) -
-      shape.double_mm * beyond_nodes(at_panels, slip(at_panels), jump) +
+      interaction.double_from_panels() * beyond_nodes(at_panels, slip(at_panels), jump) +
       advance_of_inner_flow(at_nodes, shear, velocity);
   return {std::move(equal_viscosities), layers.dbl};
 }

@@ -22,10 +22,8 @@ struct LinearMotion {
   Matrix double_layer;      // D
 };
 
-// `flow` is a system with epsilon = 1 and lambda = 1, `shape` its interact_in_full(position), `panels` its
-// panel_points, `velocity` that of the nodes.
-LinearMotion linear_motion(const FlowSystem &flow, const FlowSystem::Interaction &shape,
-                           const Membrane &membrane, const Sampling &panels, const Vector &position,
+// `interaction` is that of one membrane at this position, with both layers; `velocity` that of the nodes.
+LinearMotion linear_motion(const Interaction &interaction, const Membrane &membrane, const Vector &position,
                            const Vector &velocity, double capillary_number);
 
 } // namespace capsule

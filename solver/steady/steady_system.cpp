@@ -1,7 +1,7 @@
 #include "steady/steady_system.hpp"
 #include "base/failure.hpp"
 #include "membrane/load.hpp"
-#include "scene/scene.hpp"
+#include "scene/make_flow.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -40,8 +40,6 @@ SteadySystem::SteadySystem(const Case &physics, const Resolution &resolution, co
   set_parameters(physics);
   half_length_ = tube_for(membrane_.reference.head(nodes()).cwiseAbs().maxCoeff());
   build_flow();
-  const Vector points = flow_->panel_points();
-  panels_ = sample(membrane_.basis, points, Vector());
 }
 
 void SteadySystem::build_flow() {
@@ -50,7 +48,7 @@ void SteadySystem::build_flow() {
   resolution_.flow.fine_half_length = half_length_ - wall_beyond;
   if (scene_.pore.shape != PoreShape::none)
     pore_ = make_pore(scene_.pore);
-  flow_.emplace(scene_, membrane_.basis, resolution_.flow);
+  flow_ = make_flow(scene_, membrane_.basis, resolution_.flow);
 }
 
 void SteadySystem::set_parameters(const Case &physics) {
@@ -137,21 +135,20 @@ Vector SteadySystem::equations(const Vector &unknowns, const Vector &velocity) c
 Vector SteadySystem::residual(const Vector &unknowns) const {
   const Vector position = unknowns.head(2 * nodes());
   require_capsule(pore_, position, advice);
-  FlowSystem::Memory unused;
+  Recycled unused;
   const Vector load = membrane_load(membrane_, position) / capillary_number_;
-  return equations(unknowns, flow_->flow(flow_->interact(position), load, unused).velocity);
+  return equations(unknowns, flow_->solve(flow_->interact(position), load, unused).velocity);
 }
 
 SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) const {
   const Eigen::Index n = nodes();
   const Vector position = unknowns.head(2 * n);
   require_capsule(pore_, position, advice);
-  FlowSystem::Memory unused;
-  const FlowSystem::Interaction shape = flow_->interact_in_full(position);
+  Recycled unused;
+  const Interaction interaction = flow_->interact(position, Layers::both);
   const Vector load = membrane_load(membrane_, position) / capillary_number_;
-  const Vector velocity = flow_->flow(shape, load, unused).velocity;
-  LinearMotion motion =
-      linear_motion(*flow_, shape, membrane_, panels_, position, velocity, capillary_number_);
+  const Vector velocity = flow_->solve(interaction, load, unused).velocity;
+  LinearMotion motion = linear_motion(interaction, membrane_, position, velocity, capillary_number_);
   Linearisation result;
   result.residual = equations(unknowns, velocity);
   result.double_layer = std::move(motion.double_layer);
@@ -169,11 +166,11 @@ SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) cons
 }
 
 FlowState SteadySystem::flow(const Vector &position) const {
-  FlowSystem::Memory unused;
-  const FlowSystem::Interaction shape = flow_->interact(position);
+  Recycled unused;
+  const Interaction interaction = flow_->interact(position);
   const Vector load = membrane_load(membrane_, position) / capillary_number_;
-  FlowState state = flow_->flow(shape, load, unused);
-  state.pressure_drop_reciprocal = flow_->reciprocal_pressure_drop(shape, load, state.velocity, unused);
+  FlowState state = flow_->solve(interaction, load, unused);
+  state.pressure_drop_reciprocal = flow_->reciprocal_pressure_drop(interaction, load, state, unused);
   return state;
 }
 

@@ -59,8 +59,7 @@ private:
   Vector centre_weights_;  // nodal areas as parts of the undeformed area
   double half_length_ = 0; // of the tube
   Membrane membrane_;
-  std::optional<FlowSystem> flow_;
-  Sampling panels_; // the flow's quadrature points on the membrane
+  std::optional<Flow> flow_;
 };
 
 } // namespace capsule

@@ -1,8 +1,8 @@
 // The flow around given shapes against exact solutions: the empty pore, drops and spheres.
 #include "base/failure.hpp"
-#include "flow/flow.hpp"
 #include "motion/dynamics.hpp"
 #include "observe/gauge.hpp"
+#include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"
 #include <boost/test/unit_test.hpp>
 #include <numbers>
@@ -36,60 +36,7 @@ Vector sphere(const MeridianBasis &basis, double a, double centre) {
 
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(flow_system)
-
-BOOST_AUTO_TEST_CASE(empty_pore_is_poiseuille_in_the_tube) {
-  const FlowSystem system(pore_case(0.8, -4), spectral_basis(16), {});
-  Targets points{Vector(6), Vector(6)};
-  points.x << 1.5, 3, 5, 8, 11, 13.5;
-  points.r << 0, 0.3, 0.9, 0.7, 0.05, 0.5;
-  const Vector velocity = system.empty_velocity(points);
-  const Vector poiseuille = 2 * (1 - points.r.array().square());
-  BOOST_TEST((velocity.head(6) - poiseuille).tail(5).cwiseAbs().maxCoeff() < 1e-6);
-  BOOST_TEST(velocity.tail(6).cwiseAbs().tail(5).maxCoeff() < 1e-6);
-  const Matrix wall = system.empty_wall_traction(); // arc length from the exit, f_x, f_r
-  for (Eigen::Index k = 0; k < wall.rows(); ++k)
-    if (wall(k, 0) > 3 && wall(k, 0) < 12)
-      BOOST_TEST(std::abs(wall(k, 1) + 4) < 1e-5);
-}
-
-// The same flux pi crosses every section of the mouth.
-BOOST_AUTO_TEST_CASE(flux_is_conserved_across_the_mouth) {
-  const FlowSystem system(pore_case(0.8, -4), spectral_basis(16), {});
-  const GaussRule rule = gauss_legendre(24);
-  for (const double x : {-3.0, -0.5, -0.02, 0.02, 0.5, 6.0}) {
-    const double wall = x < 0 ? std::sqrt(1 + x * x * std::pow(std::tan(78.5 * pi / 180), 2)) : 1;
-    const Vector r = wall / 2 * (1 + rule.nodes.array());
-    const Vector velocity = system.empty_velocity({Vector::Constant(24, x), r});
-    const double flux =
-        2 * pi * wall / 2 * rule.weights.dot((velocity.head(24).array() * r.array()).matrix());
-    BOOST_TEST(std::abs(flux - pi) < 1e-5);
-  }
-}
-
-// A square mouth adds half of Sampson's 3 pi for an orifice (Dagan, Weinbaum and Pfeffer: within 1 % of the
-// total).
-BOOST_AUTO_TEST_CASE(entrance_loss_of_a_square_mouth) {
-  Case physics = pore_case(0.8, -4);
-  physics.pore.opening_angle_deg = 90;
-  const FlowSystem system(physics, spectral_basis(16), {});
-  const double sampson = 3 * pi / 2;
-  BOOST_TEST(std::abs(system.empty_pressure_drop() - 8 * 15 - sampson) < 0.01 * (8 * 15 + sampson));
-}
-
-// Half of the pressure drop through a whole hyperboloid, 3 pi sin^3/((1 - cos)^2 (1 + 2 cos)), is what the
-// mouth adds, but for the tube that replaces the other half.
-BOOST_AUTO_TEST_CASE(entrance_loss_of_the_hyperbolic_mouth) {
-  for (const double degrees : {60.0, 78.5}) {
-    Case physics = pore_case(0.8, -4);
-    physics.pore.opening_angle_deg = degrees;
-    const double sine = std::sin(degrees * pi / 180);
-    const double cosine = std::cos(degrees * pi / 180);
-    const double hyperboloid = 3 * pi * std::pow(sine, 3) / (std::pow(1 - cosine, 2) * (1 + 2 * cosine));
-    const double loss = FlowSystem(physics, spectral_basis(16), {}).empty_pressure_drop() - 8 * 15;
-    BOOST_TEST(std::abs(loss - hyperboloid / 2) < 0.02 * loss);
-  }
-}
+BOOST_AUTO_TEST_SUITE(flow)
 
 // Hadamard and Rybczynski: the load q = x n moves a spherical drop with U = (2/3) a^2 (1 + lambda)/(2 + 3
 // lambda) and the slip U sin(theta)/(2 (1 + lambda)).
@@ -100,16 +47,16 @@ BOOST_AUTO_TEST_CASE(viscous_drop_translates) {
   for (const double lambda : {0.1, 1.0, 5.0, 100.0}) {
     Case physics = unbounded_case();
     physics.flow.viscosity_ratio = lambda;
-    const FlowSystem system(physics, basis, {});
+    const Flow flow = make_flow(physics, basis, {});
     const Vector position = sphere(basis, a, 0);
     const Eigen::ArrayXd x = position.head(n);
     const Eigen::ArrayXd r = position.tail(n);
     Vector load(2 * n);
     load << x * x / a, x * r / a;
-    const auto shape = system.interact(position);
-    FlowSystem::Memory memory;
-    const Vector velocity =
-        system.flow(shape, load, memory).velocity - system.flow(shape, Vector::Zero(2 * n), memory).velocity;
+    const Interaction interaction = flow.interact(position);
+    Recycled recycled;
+    const Vector velocity = flow.solve(interaction, load, recycled).velocity -
+                            flow.solve(interaction, Vector::Zero(2 * n), recycled).velocity;
     const double speed = 2.0 / 3 * a * a * (1 + lambda) / (2 + 3 * lambda);
     const Eigen::ArrayXd normal = velocity.head(n).array() * x / a + velocity.tail(n).array() * r / a;
     BOOST_TEST((normal - speed * x / a).abs().maxCoeff() < 1e-9);
@@ -132,11 +79,11 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_in_a_tube) {
     physics.pore.entrance_distance = 2;
     const MeridianBasis basis = spectral_basis(48);
     const Eigen::Index n = basis.size();
-    const FlowSystem system(physics, basis, {});
+    const Flow flow = make_flow(physics, basis, {});
     const Vector position = sphere(basis, row.a, 7);
-    const auto shape = system.interact(position);
-    FlowSystem::Memory memory;
-    const Matrix mobility = system.mobility(shape, memory);
+    const Interaction interaction = flow.interact(position);
+    Recycled recycled, traction;
+    const Matrix mobility = flow.mobility(interaction, recycled);
     // Unknown load and speed: M q - U e_x = -v_e, no force; a pressure inside is free, so q.n is pinned.
     Vector area(n);
     area = basis.weights.array() * row.a * position.tail(n).array();
@@ -150,13 +97,13 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_in_a_tube) {
         mobility + normal * (normal.array() * area2.array()).matrix().transpose();
     matrix.col(2 * n).head(n).setConstant(-1);
     matrix.row(2 * n).head(n) = area.transpose();
-    right.head(2 * n) = -shape.empty_velocity;
+    right.head(2 * n) = -interaction.base_velocity();
     const Vector solution = matrix.partialPivLu().solve(right);
     const Vector load = solution.head(2 * n);
     BOOST_TEST(std::abs(solution[2 * n] - row.v_g) < 1e-7);
-    const FlowState state = system.flow(shape, load, memory);
+    const FlowState state = flow.solve(interaction, load, recycled);
     BOOST_TEST(std::abs(state.pressure_drop - row.pressure_drop) < 1e-6 * (1 + row.pressure_drop));
-    BOOST_TEST(std::abs(system.reciprocal_pressure_drop(shape, load, state.velocity, memory) -
+    BOOST_TEST(std::abs(flow.reciprocal_pressure_drop(interaction, load, state, traction) -
                         row.pressure_drop) < 1e-6 * (1 + row.pressure_drop));
   }
 }
@@ -169,17 +116,17 @@ BOOST_AUTO_TEST_CASE(pressure_drop_by_two_routes) {
       physics.flow.viscosity_ratio = lambda;
       const MeridianBasis basis = spectral_basis(40);
       const Eigen::Index n = basis.size();
-      const FlowSystem system(physics, basis, {});
+      const Flow flow = make_flow(physics, basis, {});
       const Vector position = sphere(basis, 0.7, x);
       Vector load(2 * n); // smooth, with the parities and no resultant
       const Eigen::ArrayXd zeta = basis.nodes;
       load << (2 * zeta).cos() + 1.0 / 3, (zeta.sin() * (1 + zeta.cos()));
-      const auto shape = system.interact(position);
-      FlowSystem::Memory memory;
-      const FlowState state = system.flow(shape, load, memory);
-      BOOST_TEST(std::abs(state.pressure_drop -
-                          system.reciprocal_pressure_drop(shape, load, state.velocity, memory)) <
-                 2e-6 * (1 + std::abs(state.pressure_drop)));
+      const Interaction interaction = flow.interact(position);
+      Recycled recycled, traction;
+      const FlowState state = flow.solve(interaction, load, recycled);
+      BOOST_TEST(
+          std::abs(state.pressure_drop - flow.reciprocal_pressure_drop(interaction, load, state, traction)) <
+          2e-6 * (1 + std::abs(state.pressure_drop)));
     }
 }
 
@@ -192,25 +139,26 @@ BOOST_AUTO_TEST_CASE(nodes_beside_quadrature_points) {
     physics.mesh.membrane = nodes;
     physics.accuracy = 1e-6;
     const MeridianBasis basis = spectral_basis(nodes);
-    const FlowSystem system(physics, basis, choose_resolution(physics).flow);
+    const Flow flow = make_flow(physics, basis, choose_resolution(physics).flow);
     Vector position = sphere(basis, 0.8, 10);
     position.head(nodes).array() += 0.1 * (2 * basis.nodes.array()).cos();
     position.tail(nodes).array() += 1e-6 * (nodes / 2 * basis.nodes.array()).sin();
-    const auto shape = system.interact_in_full(position);
-    const Eigen::Index q = shape.membrane.size();
+    const Interaction interaction = flow.interact(position, Layers::both);
+    const Curve &panels = interaction.shape().panels;
+    const Eigen::Index q = panels.size();
     Vector uniform = Vector::Zero(2 * q), normal(2 * q);
     uniform.head(q).setOnes();
-    normal << shape.membrane.normal_x, shape.membrane.normal_r;
-    Vector moved = shape.double_mm * uniform;
+    normal << panels.normal_x, panels.normal_r;
+    Vector moved = interaction.double_from_panels() * uniform;
     moved.head(nodes).array() -= 0.5;
     BOOST_TEST(moved.cwiseAbs().maxCoeff() < 5e-9);
-    BOOST_TEST((shape.single_mm * normal).cwiseAbs().maxCoeff() < 1e-6);
+    BOOST_TEST((interaction.single_from_panels() * normal).cwiseAbs().maxCoeff() < 1e-6);
   }
 }
 
-// What is carried from shape to shape saves time only: on a way through the mouth, where it stands still and after a
+// What is reused from shape to shape saves time only: on a path through the mouth, where it stands still and after a
 // jump, the flow is the one that is found afresh, to the solver's tolerance.
-BOOST_AUTO_TEST_CASE(memory_changes_nothing) {
+BOOST_AUTO_TEST_CASE(recycling_changes_nothing) {
   for (const double lambda : {0.2, 5.0}) {
     Case physics = pore_case(0.7, -0.5);
     physics.flow.viscosity_ratio = lambda;
@@ -218,23 +166,23 @@ BOOST_AUTO_TEST_CASE(memory_changes_nothing) {
     const Eigen::Index n = basis.size();
     FlowResolution resolution;
     resolution.solver_tolerance = 1e-9;
-    const FlowSystem system(physics, basis, resolution);
-    FlowSystem::Memory carried;
+    const Flow flow = make_flow(physics, basis, resolution);
+    Recycled carried, carried_traction;
     for (const int k : {0, 1, 2, 3, 4, 5, 5, 5, 5, 5, 5, 60, 60, 1}) {
       Vector position = sphere(basis, 0.7, -0.5 + 0.12 * k);
       position.head(n).array() += 0.02 * (k % 7) * (2 * basis.nodes.array()).cos();
       Vector load(2 * n);
       load << (2 * basis.nodes.array()).cos() + 1.0 / 3 + 0.1 * k,
           basis.nodes.array().sin() * (1 + basis.nodes.array().cos());
-      const auto shape = system.interact(position);
-      const FlowState state = system.flow(shape, load, carried);
-      const double reciprocal = system.reciprocal_pressure_drop(shape, load, state.velocity, carried);
-      FlowSystem::Memory none;
-      const FlowState afresh = system.flow(shape, load, none);
+      const Interaction interaction = flow.interact(position);
+      const FlowState state = flow.solve(interaction, load, carried);
+      const double reciprocal = flow.reciprocal_pressure_drop(interaction, load, state, carried_traction);
+      Recycled none, no_traction;
+      const FlowState afresh = flow.solve(interaction, load, none);
       BOOST_TEST(state.velocity.cwiseAbs().maxCoeff() > 0.1);
       BOOST_TEST((state.velocity - afresh.velocity).cwiseAbs().maxCoeff() < 1e-8);
       BOOST_TEST(std::abs(state.pressure_drop - afresh.pressure_drop) < 1e-7);
-      BOOST_TEST(std::abs(reciprocal - system.reciprocal_pressure_drop(shape, load, state.velocity, none)) <
+      BOOST_TEST(std::abs(reciprocal - flow.reciprocal_pressure_drop(interaction, load, state, no_traction)) <
                  1e-6);
     }
   }
@@ -251,31 +199,31 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_solved_is_a_failure) {
   for (const double lambda : {1.0, 5.0}) {
     Case physics = unbounded_case();
     physics.flow.viscosity_ratio = lambda;
-    const FlowSystem system(physics, basis, {});
-    const auto shape = system.interact(position);
-    FlowSystem::Memory none;
-    const Vector velocity = system.flow(shape, load, none).velocity;
+    const Flow flow = make_flow(physics, basis, {});
+    const Interaction interaction = flow.interact(position);
+    Recycled none;
+    const Vector velocity = flow.solve(interaction, load, none).velocity;
     for (const double entry : {0.0, nan}) { // beside the solution, and afresh
-      FlowSystem::Memory memory = none;
-      memory.velocity.inverse.setZero(2 * n, 2 * n);
-      memory.velocity.inverse(5, 3) = entry;
-      memory.velocity.inverse(0, 0) = 1;
-      BOOST_TEST((system.flow(shape, load, memory).velocity - velocity).norm() < 1e-8);
-      BOOST_TEST((system.flow(shape, 2 * load, memory).velocity - velocity).norm() > 0.1);
+      Recycled recycled = none;
+      recycled.inverse.setZero(2 * n, 2 * n);
+      recycled.inverse(5, 3) = entry;
+      recycled.inverse(0, 0) = 1;
+      BOOST_TEST((flow.solve(interaction, load, recycled).velocity - velocity).norm() < 1e-8);
+      BOOST_TEST((flow.solve(interaction, 2 * load, recycled).velocity - velocity).norm() > 0.1);
     }
     const std::string kind = lambda == 1 ? "not-a-number" : "unresolved";
     const auto expected = [&](const NumericsFailure &failure) { return failure.kind == kind; };
     Vector no_load = load;
     no_load[3] = nan;
-    FlowSystem::Memory memory;
-    BOOST_CHECK_EXCEPTION(system.flow(shape, no_load, memory), NumericsFailure, expected);
-    BOOST_TEST((system.flow(shape, load, memory).velocity - velocity).cwiseAbs().maxCoeff() < 1e-8);
+    Recycled recycled;
+    BOOST_CHECK_EXCEPTION(flow.solve(interaction, no_load, recycled), NumericsFailure, expected);
+    BOOST_TEST((flow.solve(interaction, load, recycled).velocity - velocity).cwiseAbs().maxCoeff() < 1e-8);
     Vector broken = position;
     broken[3] = nan;
-    FlowSystem::Memory empty;
-    BOOST_CHECK_EXCEPTION(system.flow(system.interact(broken), load, empty), NumericsFailure, expected);
+    Recycled empty;
+    BOOST_CHECK_EXCEPTION(flow.solve(flow.interact(broken), load, empty), NumericsFailure, expected);
     if (lambda != 1)
-      BOOST_CHECK_EXCEPTION(system.mobility(system.interact(broken), empty), NumericsFailure, expected);
+      BOOST_CHECK_EXCEPTION(flow.mobility(flow.interact(broken), empty), NumericsFailure, expected);
   }
 }
 
@@ -287,18 +235,18 @@ BOOST_AUTO_TEST_CASE(velocity_around_a_capsule) {
     physics.flow.viscosity_ratio = lambda;
     const MeridianBasis basis = spectral_basis(40);
     const Eigen::Index n = basis.size();
-    const FlowSystem system(physics, basis, {});
+    const Flow flow = make_flow(physics, basis, {});
     Vector load(2 * n); // as above
     const Eigen::ArrayXd zeta = basis.nodes;
     load << (2 * zeta).cos() + 1.0 / 3, (zeta.sin() * (1 + zeta.cos()));
-    const auto shape = system.interact(sphere(basis, 0.7, 5));
-    FlowSystem::Memory memory;
-    const FlowState state = system.flow(shape, load, memory);
+    const Interaction interaction = flow.interact(sphere(basis, 0.7, 5));
+    Recycled recycled;
+    const FlowState state = flow.solve(interaction, load, recycled);
     const GaussRule rule = gauss_legendre(24);
     for (const double x : {-0.5, 3.5, 6.2}) {
       const double wall = x < 0 ? std::sqrt(1 + x * x * std::pow(std::tan(78.5 * pi / 180), 2)) : 1;
       const Vector r = wall / 2 * (1 + rule.nodes.array());
-      const Vector velocity = system.outer_velocity({Vector::Constant(24, x), r}, shape, load, state);
+      const Vector velocity = flow.outer_velocity({Vector::Constant(24, x), r}, interaction, load, state);
       const double flux =
           2 * pi * wall / 2 * rule.weights.dot((velocity.head(24).array() * r.array()).matrix());
       BOOST_TEST(std::abs(flux - pi) < 1e-5);
@@ -307,7 +255,7 @@ BOOST_AUTO_TEST_CASE(velocity_around_a_capsule) {
     const double out = 1 + 1e-6 / 0.7; // a millionth of a radius above the membrane
     const Targets points{Vector{{5 - 0.7 * out * std::cos(basis.nodes[k]), 5.5}},
                          Vector{{0.7 * out * std::sin(basis.nodes[k]), 1 - 1e-6}}};
-    const Vector velocity = system.outer_velocity(points, shape, load, state);
+    const Vector velocity = flow.outer_velocity(points, interaction, load, state);
     BOOST_TEST(std::abs(velocity[0] - state.velocity[k]) < 1e-4);
     BOOST_TEST(std::abs(velocity[2] - state.velocity[n + k]) < 1e-4);
     BOOST_TEST(std::abs(velocity[1]) < 1e-4);

@@ -1,10 +1,10 @@
 // Is the flow Poiseuille's where the paper says so: half a radius behind a square mouth, and one radius before and
 // behind a capsule? (Section 2.2.2)
 #include "study.hpp"
-#include "flow/flow.hpp"
 #include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
+#include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"
 #include <cmath>
 #include <fmt/format.h>
@@ -28,14 +28,14 @@ double difference(const Targets &points, const Vector &velocity) {
 double behind_mouth(const std::string &directory) {
   Case physics = physics_of("fig07-viscosity-sphere");
   physics.pore.opening_angle_deg = 90;
-  const FlowSystem empty(physics, spectral_basis(16), {});
+  const Wall empty = make_wall(physics, {});
   Table table("x,difference");
   for (int k = 0; k <= 30; ++k) {
     const Targets points = section(0.05 * k);
-    table.add(fmt::format("{:.2f},{:.6e}", 0.05 * k, difference(points, empty.empty_velocity(points))));
+    table.add(fmt::format("{:.2f},{:.6e}", 0.05 * k, difference(points, empty.base_velocity(points))));
   }
   table.write(directory + "/mouth.csv");
-  return difference(section(0.5), empty.empty_velocity(section(0.5)));
+  return difference(section(0.5), empty.base_velocity(section(0.5)));
 }
 
 // Around the capsule of Table 2 (lambda = 1) in mid-tube, at distances of 0.1 to 2 radii from either tip.
@@ -45,15 +45,15 @@ double at_tips(const std::string &directory) {
   const Case &physics = input.runs.at(0).physics;
   const Outcome outcome = march(physics, {}, {});
   const Membrane membrane = make_scene(physics).membrane;
-  const FlowSystem system(physics, membrane.basis, choose_resolution(physics).flow);
+  const Flow flow = make_flow(physics, membrane.basis, choose_resolution(physics).flow);
   const Vector &position = outcome.last.position;
-  const FlowSystem::Interaction shape = system.interact(position);
+  const Interaction interaction = flow.interact(position);
   const Vector load = membrane_load(membrane, position);
-  FlowSystem::Memory memory;
-  const FlowState state = system.flow(shape, load, memory);
+  Recycled recycled;
+  const FlowState state = flow.solve(interaction, load, recycled);
   const Vector x = position.head(membrane.basis.size());
   const auto off = [&](double at) {
-    return difference(section(at), system.outer_velocity(section(at), shape, load, state));
+    return difference(section(at), flow.outer_velocity(section(at), interaction, load, state));
   };
   Table table("distance,upstream,downstream");
   for (int k = 1; k <= 20; ++k)

@@ -7,12 +7,12 @@
 //   paper              error of the stored history; time of a step times the number of steps
 #include "study.hpp"
 #include "base/failure.hpp"
-#include "flow/flow.hpp"
 #include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
 #include "motion/time_step.hpp"
 #include "observe/gauge.hpp"
+#include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"
 #include <algorithm>
 #include <cmath>
@@ -269,7 +269,7 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
   const Resolution resolution = choose_resolution(physics);
   const Dynamics dynamics = make_dynamics(physics);
   const Membrane &membrane = dynamics.scene->membrane;
-  const FlowSystem system(physics, membrane.basis, resolution.flow);
+  const Flow flow = make_flow(physics, membrane.basis, resolution.flow);
   const Gauge gauge(physics, membrane);
   Shares shares;
   double velocity = 0; // load, interaction and systems
@@ -281,7 +281,7 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
   };
   const Equations equations{[&](const Vector &position, Vector &rate) {
                               clocked(shares.load, [&] { return membrane_load(membrane, position); });
-                              clocked(shares.interaction, [&] { return system.interact(position); });
+                              clocked(shares.interaction, [&] { return flow.interact(position); });
                               rate = clocked(velocity, [&] { return dynamics.flow(position).velocity; });
                               return rate.allFinite();
                             },
@@ -301,11 +301,11 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
 
   Case unbounded = physics;
   unbounded.pore.shape = PoreShape::none;
-  const FlowSystem membrane_alone(unbounded, membrane.basis, resolution.flow);
+  const Flow membrane_alone = make_flow(unbounded, membrane.basis, resolution.flow);
   std::vector<double> alone, all, row;
   for (const Vector &shape : shapes) {
     alone.push_back(seconds_of([&] { membrane_alone.interact(shape); }));
-    all.push_back(seconds_of([&] { system.interact(shape); }));
+    all.push_back(seconds_of([&] { flow.interact(shape); }));
     row.push_back(seconds_of([&] {
       const FlowState state = dynamics.report(shape, true);
       gauge.row(0, shape, state.velocity);

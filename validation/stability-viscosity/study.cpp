@@ -2,10 +2,10 @@
 // eigenvalues against what is known exactly, the corrections that one shape's inverse leaves to the next, short
 // entrances, and the pressure drop of one shape that no longer changes.
 #include "study.hpp"
-#include "flow/flow.hpp"
 #include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
+#include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"
 #include <cmath>
 #include <fmt/format.h>
@@ -35,9 +35,11 @@ Shape shape_of(const Case &physics) {
   return {spectral_basis(chosen.membrane_nodes), chosen.flow, make_scene(physics).membrane};
 }
 
-FlowState flow_of(const FlowSystem &system, const Shape &shape, const Vector &position,
-                  FlowSystem::Memory &memory) {
-  return system.flow(system.interact(position), membrane_load(shape.membrane, position), memory);
+// What the first velocity leaves for later ones is the operator's own inverse.
+Matrix inverse_at(const Flow &flow, const Shape &shape, const Vector &position) {
+  Recycled recycled;
+  flow.solve(flow.interact(position), membrane_load(shape.membrane, position), recycled);
+  return recycled.inverse;
 }
 
 struct Condition {
@@ -46,14 +48,8 @@ struct Condition {
   double contraction;         // of a correction with the inverse of a shape before
 };
 
-// What a memory's first velocity leaves is the operator's own inverse.
-Condition condition(const FlowSystem &system, const Shape &shape, const Vector &position,
-                    const Vector &before) {
-  FlowSystem::Memory here;
-  FlowSystem::Memory there;
-  flow_of(system, shape, position, here);
-  flow_of(system, shape, before, there);
-  const Matrix &own = here.velocity.inverse, &earlier = there.velocity.inverse;
+Condition condition(const Flow &flow, const Shape &shape, const Vector &position, const Vector &before) {
+  const Matrix own = inverse_at(flow, shape, position), earlier = inverse_at(flow, shape, before);
   const Eigen::JacobiSVD<Matrix> singular(own);
   const Matrix change =
       Matrix::Identity(own.rows(), own.cols()) - own.partialPivLu().solve(earlier); // I - A A_before^(-1)
@@ -76,8 +72,8 @@ bool systems(const std::string &directory, const Vector &position, const Vector 
       continue;
     const Case physics = entrance(ratio);
     const Shape shape = shape_of(physics);
-    const FlowSystem system(physics, shape.basis, shape.resolution);
-    const Condition found = condition(system, shape, position, before);
+    const Flow flow = make_flow(physics, shape.basis, shape.resolution);
+    const Condition found = condition(flow, shape, position, before);
     const double exact = exact_eigenvalue(ratio);
     const double deviation = std::abs(found.smallest_eigenvalue / exact - 1);
     worst = std::max(worst, deviation);

@@ -1,0 +1,123 @@
+#include "flow/membrane_mesh.hpp"
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+namespace capsule {
+
+Vector even_membrane_edges(const MeridianBasis &basis, double largest_panel) {
+  return graded_edges(0, std::numbers::pi, 0.75 * basis.nodes[0], largest_panel, Graded::both);
+}
+
+MembraneMesh make_membrane_mesh(const MeridianBasis &basis, const FlowResolution &resolution) {
+  const Panels panels = make_panels(resolution.membrane_edges.size() > 0
+                                        ? resolution.membrane_edges
+                                        : even_membrane_edges(basis, resolution.membrane_panel),
+                                    resolution.membrane_panel_points);
+  MembraneMesh mesh;
+  mesh.nodes = basis.size();
+  mesh.points = panels.points.size();
+  mesh.panel_points = resolution.membrane_panel_points;
+  mesh.self = make_self_rule(panels, basis.nodes);
+  mesh.near_tolerance = resolution.near_tolerance;
+  mesh.near = NearRule(mesh.panel_points, mesh.near_tolerance);
+  mesh.parts.push_back({.basis = basis,
+                        .at_nodes = sample(basis, basis.nodes, basis.weights),
+                        .at_panels = sample(basis, panels.points, panels.weights),
+                        .even_bend = bend(mesh.self, [&](const Vector &zeta) { return basis.even(zeta, 2); }),
+                        .odd_bend = bend(mesh.self, [&](const Vector &zeta) { return basis.odd(zeta, 2); })});
+  return mesh;
+}
+
+MembraneMesh join(std::span<const MembraneMesh> meshes) {
+  MembraneMesh joined = meshes[0];
+  for (const MembraneMesh &mesh : meshes.subspan(1)) {
+    if (mesh.panel_points != joined.panel_points || mesh.near_tolerance != joined.near_tolerance)
+      throw std::invalid_argument("membranes of one flow have panels of one kind");
+    for (MembraneMesh::Part part : mesh.parts) {
+      part.first_node += joined.nodes;
+      part.first_point += joined.points;
+      joined.parts.push_back(std::move(part));
+    }
+    for (SelfRule::Site site : mesh.self.sites) {
+      site.first_point += joined.points;
+      joined.self.sites.push_back(std::move(site));
+    }
+    joined.nodes += mesh.nodes;
+    joined.points += mesh.points;
+  }
+  return joined;
+}
+
+std::vector<Eigen::Index> MembraneMesh::rows(std::size_t part) const {
+  const Part &p = parts[part];
+  const Eigen::Index n = p.nodes();
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(2 * n));
+  std::iota(rows.begin(), rows.begin() + n, p.first_node);
+  std::iota(rows.begin() + n, rows.end(), nodes + p.first_node);
+  return rows;
+}
+
+Vector MembraneMesh::at_panels(const Vector &nodal) const {
+  Vector values(2 * points);
+  for (const Part &p : parts) {
+    values.segment(p.first_point, p.points()).noalias() =
+        p.at_panels.even[0] * nodal.segment(p.first_node, p.nodes());
+    values.segment(points + p.first_point, p.points()).noalias() =
+        p.at_panels.odd[0] * nodal.segment(nodes + p.first_node, p.nodes());
+  }
+  return values;
+}
+
+Matrix MembraneMesh::on_nodes(const RowMatrix &on_panels) const {
+  Matrix result(on_panels.rows(), 2 * nodes);
+  for (const Part &p : parts) {
+    result.middleCols(p.first_node, p.nodes()).noalias() =
+        on_panels.middleCols(p.first_point, p.points()) * p.at_panels.even[0];
+    result.middleCols(nodes + p.first_node, p.nodes()).noalias() =
+        on_panels.middleCols(points + p.first_point, p.points()) * p.at_panels.odd[0];
+  }
+  return result;
+}
+
+namespace {
+
+Curve blank_curve(Eigen::Index size, Eigen::Index panel_points) {
+  Curve curve;
+  curve.panel_points = panel_points;
+  for (Vector *field : {&curve.x, &curve.r, &curve.x_zeta, &curve.r_zeta, &curve.weights})
+    field->resize(size);
+  return curve;
+}
+
+} // namespace
+
+MembraneShape shape_at(const MembraneMesh &mesh, const Vector &position) {
+  const Eigen::Index n = mesh.nodes;
+  MembraneShape shape;
+  shape.position = position;
+  shape.targets = {position.head(n), position.tail(n), Vector(n), Vector(n)};
+  Curve &nodes = shape.nodes = blank_curve(n, n);
+  Curve &panels = shape.panels = blank_curve(mesh.points, mesh.panel_points);
+  nodes.x = shape.targets.x;
+  nodes.r = shape.targets.r;
+  for (const MembraneMesh::Part &p : mesh.parts) {
+    const auto x = nodes.x.segment(p.first_node, p.nodes());
+    const auto r = nodes.r.segment(p.first_node, p.nodes());
+    shape.targets.bend_x.segment(p.first_node, p.nodes()).noalias() = p.even_bend * x;
+    shape.targets.bend_r.segment(p.first_node, p.nodes()).noalias() = p.odd_bend * r;
+    nodes.x_zeta.segment(p.first_node, p.nodes()).noalias() = p.at_nodes.even[1] * x;
+    nodes.r_zeta.segment(p.first_node, p.nodes()).noalias() = p.at_nodes.odd[1] * r;
+    nodes.weights.segment(p.first_node, p.nodes()) = p.at_nodes.weights;
+    panels.x.segment(p.first_point, p.points()).noalias() = p.at_panels.even[0] * x;
+    panels.r.segment(p.first_point, p.points()).noalias() = p.at_panels.odd[0] * r;
+    panels.x_zeta.segment(p.first_point, p.points()).noalias() = p.at_panels.even[1] * x;
+    panels.r_zeta.segment(p.first_point, p.points()).noalias() = p.at_panels.odd[1] * r;
+    panels.weights.segment(p.first_point, p.points()) = p.at_panels.weights;
+  }
+  complete(nodes);
+  complete(panels);
+  return shape;
+}
+
+} // namespace capsule

@@ -1,0 +1,52 @@
+#pragma once
+// The membranes of a flow on nodes and on quadrature panels. To the integrals several membranes are one curve of
+// several parts, and their fields are stacked so that nothing else tells them apart:
+//   nodal vectors, 2N   axial components at the nodes of the first membrane, of the second ...; then the radial ones
+//   panel vectors, 2Q   the same at the quadrature points
+// Throws std::invalid_argument for membranes whose panels differ in their number of points or near tolerance.
+#include "flow/flow_resolution.hpp"
+#include "integrals/layer_potential.hpp"
+#include "membrane/membrane.hpp"
+#include <span>
+
+namespace capsule {
+
+// Panels without regard to a membrane's shape: as long as allowed, shorter at the poles.
+Vector even_membrane_edges(const MeridianBasis &basis, double largest_panel);
+
+struct MembraneMesh {
+  struct Part { // one membrane
+    MeridianBasis basis;
+    Sampling at_nodes, at_panels;
+    Matrix even_bend, odd_bend; // nodes -> bend of layer_potential.hpp
+    Eigen::Index first_node = 0, first_point = 0;
+    Eigen::Index nodes() const { return basis.size(); }
+    Eigen::Index points() const { return at_panels.zeta.size(); }
+  };
+  std::vector<Part> parts;
+  Eigen::Index nodes = 0, points = 0; // N, Q of all parts
+  Eigen::Index panel_points = 0;
+  SelfRule self; // of all nodes on all panels
+  double near_tolerance = 0;
+  NearRule near;
+
+  // Where the 2 n components of one membrane stand in a nodal vector.
+  std::vector<Eigen::Index> rows(std::size_t part) const;
+  // Nodal values -> values at the quadrature points, both components.
+  Vector at_panels(const Vector &nodal) const;
+  // The matrix on panel vectors as one on nodal vectors.
+  Matrix on_nodes(const RowMatrix &on_panels) const;
+};
+MembraneMesh make_membrane_mesh(const MeridianBasis &basis, const FlowResolution &resolution);
+MembraneMesh join(std::span<const MembraneMesh> meshes);
+
+// The membranes at a position, 2N.
+struct MembraneShape {
+  Vector position;
+  Targets targets; // the nodes
+  Curve nodes;     // with the rule on the nodes
+  Curve panels;
+};
+MembraneShape shape_at(const MembraneMesh &mesh, const Vector &position);
+
+} // namespace capsule

@@ -1,0 +1,69 @@
+#pragma once
+// A linear system that changes with a shape and is solved again and again: the inverse of an earlier matrix
+// turns the new system into a few corrections, and the last solutions, continued to the new shape, are the
+// first guess. Throws NumericsFailure("unresolved") if the matrix is singular or the corrections do not
+// converge with a fresh inverse either.
+#include "base/failure.hpp"
+#include "base/linear_algebra.hpp"
+#include <vector>
+
+namespace capsule {
+
+// What is reused from earlier shapes. Empty at the start; the solution is the same with any, to the tolerance.
+struct Recycled {
+  Matrix inverse;
+  std::vector<Vector> positions, solutions; // the latest first
+};
+
+// Throws if the matrix is singular.
+Matrix inverse_of(const Matrix &system);
+// The solution at a position, from the last ones along a smooth path of shapes.
+Vector continued_solution(const Recycled &recycled, const Vector &position);
+void remember_solution(const Vector &position, const Vector &solution, Recycled &recycled);
+NumericsFailure not_converged();
+
+// Generalised conjugate residuals, preconditioned with the earlier inverse.
+//   tolerance     of the solution, relative to its largest component
+//   residual_of   a guess
+//   apply         the matrix to a vector
+//   matrix        all of it, for a fresh inverse
+template <class Residual, class Apply, class Build>
+Vector solve_recycled(const Vector &position, double tolerance, Recycled &recycled,
+                      const Residual &residual_of, const Apply &apply, const Build &matrix) {
+  constexpr int most_corrections = 10; // a fresh inverse costs some tens of them
+  if (recycled.inverse.size() == 0)
+    recycled.inverse = inverse_of(matrix());
+  Vector solution = continued_solution(recycled, position);
+  for (const bool fresh : {false, true}) {
+    if (fresh)
+      recycled.inverse = inverse_of(matrix());
+    Vector residual = residual_of(solution);
+    std::vector<Vector> directions, images;
+    for (int k = 0; k <= most_corrections; ++k) {
+      Vector direction = recycled.inverse * residual; // nearly the error
+      if (direction.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <=
+          tolerance * solution.cwiseAbs().maxCoeff()) {
+        solution += direction;
+        remember_solution(position, solution, recycled);
+        return solution;
+      }
+      Vector image = apply(direction);
+      for (std::size_t j = 0; j < images.size(); ++j) {
+        const double share = images[j].dot(image);
+        image -= share * images[j];
+        direction -= share * directions[j];
+      }
+      const double norm = image.norm();
+      if (!(norm > 0)) // or not a number: the inverse is of no use
+        break;
+      images.push_back(image / norm);
+      directions.push_back(direction / norm);
+      const double share = images.back().dot(residual);
+      solution += share * directions.back();
+      residual -= share * images.back();
+    }
+  }
+  throw not_converged();
+}
+
+} // namespace capsule

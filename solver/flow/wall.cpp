@@ -1,0 +1,141 @@
+#include "flow/wall.hpp"
+
+namespace capsule {
+namespace {
+
+// Equal panels in the middle of a tube, or in all of it; longer ones towards its ends, where the disturbance
+// decays like exp(-4.47 d).
+Vector tube_edges(double length, const FlowResolution &resolution) {
+  constexpr double longest = 0.75;
+  const double panel = resolution.wall_panel;
+  const double outside = length / 2 - resolution.fine_half_length;
+  if (outside < panel || panel > longest)
+    return graded_edges(0, length, panel, panel, Graded::last);
+  const Vector first = graded_edges(0, outside, panel, longest, Graded::last);
+  const Vector middle = graded_edges(outside, length - outside, panel, panel, Graded::last);
+  Vector edges(2 * first.size() + middle.size() - 2);
+  edges << first, middle.segment(1, middle.size() - 2), length - first.reverse().array();
+  return edges;
+}
+
+// Edges of the wall's panels by arc length from the outlet: those of a tube; or equal in the pore, halved
+// towards the lip from both sides, and growing with the distance from the lip in the reservoir, where the
+// flow decays like a power.
+Vector wall_edges(const Pore &pore, const FlowResolution &resolution) {
+  if (pore.shape == PoreShape::tube)
+    return tube_edges(pore.entrance_arc, resolution);
+  const double lip = pore.exit_x;
+  const Vector tube = graded_edges(0, lip, resolution.lip_panel, resolution.wall_panel, Graded::last);
+  const Vector reservoir =
+      graded_edges(lip, pore.entrance_arc, resolution.lip_panel, pore.entrance_arc, Graded::first);
+  Vector edges(tube.size() + reservoir.size() - 1);
+  edges << tube, reservoir.tail(reservoir.size() - 1);
+  return edges;
+}
+
+Curve wall_curve(const Pore &pore, const Panels &along) {
+  const Eigen::Index n = along.points.size();
+  Curve wall;
+  wall.panel_points = along.rule.size();
+  wall.weights = along.weights;
+  for (Vector *field : {&wall.x, &wall.r, &wall.x_zeta, &wall.r_zeta})
+    field->resize(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const WallPoint point = wall_point(pore, along.points[k]);
+    wall.x[k] = point.x;
+    wall.r[k] = point.r;
+    wall.x_zeta[k] = -point.normal_r;
+    wall.r_zeta[k] = point.normal_x;
+  }
+  complete(wall);
+  return wall;
+}
+
+} // namespace
+
+Wall::Wall(const Pore &pore, const FlowResolution &resolution)
+    : near_(resolution.wall_panel_points, resolution.near_tolerance),
+      outlet_(plane_outlet(pore.exit_x, resolution.near_tolerance)) {
+  const Panels along = make_panels(wall_edges(pore, resolution), resolution.wall_panel_points);
+  arc_ = along.points;
+  curve_ = wall_curve(pore, along);
+  fixed_near_ = FixedNearRule(curve_, resolution.near_tolerance);
+  weights_.resize(2 * curve_.size() + 1);
+  weights_ << stokeslet_factor * curve_.area, 1, stokeslet_factor * curve_.area;
+  inverse_ = weights_.asDiagonal() * matrix().partialPivLu().inverse();
+  if (pore.shape == PoreShape::tube) {
+    closed_form_ = poiseuille_flow;
+    base_pressure_drop_ = poiseuille_pressure_drop(pore.entrance_arc);
+  } else {
+    solve_base_flow();
+  }
+}
+
+// C of (3.1): velocity at points, 2 n, from tractions of the wall and P'.
+RowMatrix Wall::response(const Targets &points) const {
+  const Eigen::Index n = curve_.size();
+  RowMatrix wall;
+  assemble_layer(ring_stokeslet, points, curve_, nullptr, near_, wall);
+  RowMatrix response(wall.rows(), 2 * n + 1);
+  response.leftCols(n) = stokeslet_factor * wall.leftCols(n);
+  response.col(n) = outlet_.column(outlet_.single_layer(points));
+  response.rightCols(n) = stokeslet_factor * wall.rightCols(n);
+  return response;
+}
+
+// A of (3.1).
+RowMatrix Wall::matrix() const {
+  const Eigen::Index n = curve_.size();
+  const RowMatrix at_wall = response({curve_.x, curve_.r});
+  RowMatrix matrix(2 * n + 1, 2 * n + 1);
+  matrix.topRows(n) = at_wall.topRows(n);
+  matrix.row(n) = outlet_.row_weights.transpose() * response(outlet_.row_points);
+  matrix.bottomRows(n) = at_wall.bottomRows(n);
+  return matrix;
+}
+
+void Wall::solve_base_flow() {
+  const Eigen::Index n = curve_.size();
+  const auto of_outlet = [&](const Targets &points) {
+    return outlet_.base_velocity(points, outlet_.single_layer(points));
+  };
+  const Vector at_wall = of_outlet({curve_.x, curve_.r});
+  Vector known(2 * n + 1);
+  known << at_wall.head(n), outlet_.row_weights.dot(of_outlet(outlet_.row_points)) - outlet_.base_row,
+      at_wall.tail(n);
+  base_forces_ = -inverse_ * known;
+  base_pressure_drop_ = -base_forces_[n];
+}
+
+double Wall::pressure_drop(const Vector &at_wall) const {
+  return unknowns() == 0 ? 0 : inverse_.row(outlet_unknown()).dot(at_wall);
+}
+
+Vector Wall::velocity(const Targets &points, const Vector &forces) const {
+  if (unknowns() == 0)
+    return Vector::Zero(2 * points.size());
+  return response(points) * forces.cwiseQuotient(weights_);
+}
+
+Vector Wall::base_velocity(const Targets &points) const {
+  if (closed_form_ != nullptr)
+    return closed_form_(points);
+  return velocity(points, base_forces_) + outlet_.base_velocity(points, outlet_.single_layer(points));
+}
+
+Vector Wall::base_velocity(const Targets &points, const RowMatrix &from_forces,
+                           const RowMatrix &outlet_single) const {
+  if (closed_form_ != nullptr)
+    return closed_form_(points);
+  return from_forces * base_forces_ + outlet_.base_velocity(points, outlet_single);
+}
+
+Matrix Wall::base_traction() const {
+  const Eigen::Index n = curve_.size();
+  const Vector traction = base_forces_.cwiseQuotient(weights_);
+  Matrix table(n, 3);
+  table << arc_, traction.head(n), traction.tail(n);
+  return table;
+}
+
+} // namespace capsule

@@ -1,0 +1,61 @@
+#pragma once
+// What does not move: the wall, the outlet, and the flow without membranes. A of (3.1) is inverted once.
+//   unknowns    force_x on the wall's points, P' at the outlet, force_r on the wall's points
+//   equations   v_x = 0 at the wall's points, the outlet's row, v_r = 0 at the wall's points
+// A force is a traction times its point's share of the wall over 8 pi: what a point force needs as a factor of the ring
+// stokeslet. Without a pore the liquid is unbounded and there are no unknowns.
+#include "flow/flow_resolution.hpp"
+#include "flow/outlet.hpp"
+#include "flow/undisturbed.hpp"
+#include "geometry/pore.hpp"
+
+namespace capsule {
+
+class Wall {
+public:
+  // Unbounded liquid that flows like this far away.
+  explicit Wall(UndisturbedFlow far_away = liquid_at_rest) : closed_form_(far_away) {}
+  Wall(const Pore &pore, const FlowResolution &resolution);
+
+  Eigen::Index unknowns() const { return inverse_.rows(); }
+  Eigen::Index outlet_unknown() const { return curve_.size(); }
+  const Curve &curve() const { return curve_; } // from the outlet to the entrance
+  const Outlet &outlet() const { return outlet_; }
+  // Of the curve's panels, for targets off the wall.
+  const FixedNearRule &near() const { return fixed_near_; }
+
+  // From velocities b at the equations to the forces A^(-1) b. Applied several times a step, once to a matrix in a
+  // Jacobian.
+  const RowMatrix &inverse() const { return inverse_; }
+  // The outlet's row of it: the extra pressure drop -P'.
+  double pressure_drop(const Vector &at_wall) const;
+  // Velocity of forces at any points, 2 n.
+  Vector velocity(const Targets &points, const Vector &forces) const;
+
+  // The flow without membranes at unit flow rate, and its pressure drop from the entrance section to the outlet.
+  Vector base_velocity(const Targets &points) const;
+  double base_pressure_drop() const { return base_pressure_drop_; }
+  // The same velocity where what forces do (2 n x unknowns) and the outlet's single layer are at hand.
+  Vector base_velocity(const Targets &points, const RowMatrix &from_forces,
+                       const RowMatrix &outlet_single) const;
+  // Its traction on the wall's points: columns arc length from the outlet, f_x, f_r.
+  Matrix base_traction() const;
+
+private:
+  RowMatrix response(const Targets &points) const;
+  RowMatrix matrix() const;
+  void solve_base_flow();
+
+  Curve curve_;
+  Vector arc_;
+  NearRule near_;
+  FixedNearRule fixed_near_;
+  Outlet outlet_;
+  RowMatrix inverse_;                     // with the forces' weights
+  Vector weights_;                        // force = weight times traction, or P'
+  UndisturbedFlow closed_form_ = nullptr; // the flow without membranes, or null
+  Vector base_forces_;
+  double base_pressure_drop_ = 0;
+};
+
+} // namespace capsule
