@@ -1,12 +1,10 @@
 #include "geometry/meridian.hpp"
-#include <array>
 #include <cmath>
 #include <gsl/gsl_bspline.h>
 #include <gsl/gsl_errno.h>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
-#include <vector>
 
 namespace capsule {
 namespace {
@@ -69,7 +67,9 @@ Matrix waves(const Vector &points, Eigen::Index n, int first_k, int quarter_turn
   return values;
 }
 
-// ---- Splines ----
+// ---- Cubic splines ----
+
+constexpr int degree = 3;
 
 struct FreeBspline {
   void operator()(gsl_bspline_workspace *workspace) const { gsl_bspline_free(workspace); }
@@ -82,7 +82,7 @@ void check(int gsl_status) {
 
 // B-splines with simple knots at the nodes. The one place where GSL is prevented from ending the program: its
 // return codes are checked instead.
-Bspline bspline(const Vector &nodes, int degree) {
+Bspline bspline(const Vector &nodes) {
   gsl_set_error_handler_off();
   Bspline workspace(gsl_bspline_alloc(degree + 1, nodes.size()));
   const auto breakpoints = gsl_vector_const_view_array(nodes.data(), nodes.size());
@@ -104,9 +104,8 @@ LocalBsplines local_bsplines(gsl_bspline_workspace *workspace, double point, int
   return local;
 }
 
-Matrix spline_values(const Vector &nodes, int degree, const Matrix &coefficients, const Vector &points,
-                     int derivative) {
-  const Bspline workspace = bspline(nodes, degree);
+Matrix spline_values(const Vector &nodes, const Matrix &coefficients, const Vector &points, int derivative) {
+  const Bspline workspace = bspline(nodes);
   Matrix values(points.size(), coefficients.cols());
   for (Eigen::Index i = 0; i < points.size(); ++i) {
     require(points(i) >= nodes(0) && points(i) <= nodes(nodes.size() - 1), "a point outside of the spline");
@@ -117,13 +116,12 @@ Matrix spline_values(const Vector &nodes, int degree, const Matrix &coefficients
   return values;
 }
 
-// B-spline coefficients from the nodal values, the given derivatives at the first node and those at the last.
-// Derivatives are scaled with the element next to the end: the matrix to be inverted is then free of units.
-Matrix spline_coefficients(const Vector &nodes, int degree, const std::vector<int> &first_end,
-                           const std::vector<int> &last_end) {
+// B-spline coefficients from the nodal values and a derivative at both ends, which vanishes. It is scaled with the
+// element next to the end: the matrix to be inverted is then free of units.
+Matrix spline_coefficients(const Vector &nodes, int end_derivative) {
   const Eigen::Index n = nodes.size(), size = n + degree - 1;
   require((nodes.tail(n - 1) - nodes.head(n - 1)).minCoeff() > 0, "the nodes of a spline must ascend");
-  const Bspline workspace = bspline(nodes, degree);
+  const Bspline workspace = bspline(nodes);
   Matrix conditions = Matrix::Zero(size, size);
   Vector scale = Vector::Ones(size);
   Eigen::Index row = 0;
@@ -136,17 +134,13 @@ Matrix spline_coefficients(const Vector &nodes, int degree, const std::vector<in
   for (const double node : nodes) {
     add(node, 0, 1);
   }
-  for (const int derivative : first_end) {
-    add(nodes(0), derivative, nodes(1) - nodes(0));
-  }
-  for (const int derivative : last_end) {
-    add(nodes(n - 1), derivative, nodes(n - 1) - nodes(n - 2));
-  }
-  return conditions.partialPivLu().inverse() * scale.asDiagonal();
+  add(nodes(0), end_derivative, nodes(1) - nodes(0));
+  add(nodes(n - 1), end_derivative, nodes(n - 1) - nodes(n - 2));
+  return (conditions.partialPivLu().inverse() * scale.asDiagonal()).leftCols(n);
 }
 
 // The integral of a B-spline is its support over its order.
-Vector bspline_integrals(const Vector &nodes, int degree) {
+Vector bspline_integrals(const Vector &nodes) {
   const Eigen::Index last = nodes.size() - 1;
   Vector integrals(nodes.size() + degree - 1);
   for (Eigen::Index i = 0; i < integrals.size(); ++i) {
@@ -169,34 +163,25 @@ MeridianBasis spectral_basis(int nodes) {
   return basis;
 }
 
-MeridianBasis spline_basis(int elements, int degree) {
-  require(degree == 3 || degree == 5 || degree == 7, "the degree of a meridian's spline is 3, 5 or 7");
+MeridianBasis spline_basis(int elements) {
   require(elements >= degree, "a spline needs as many elements as its degree");
   MeridianBasis basis;
-  basis.spline_degree = degree;
+  basis.spline = true;
   basis.nodes = Vector::LinSpaced(elements + 1, 0, pi);
-  std::vector<int> odd_derivatives, even_derivatives;
-  for (int derivative = 1; derivative < degree; derivative += 2) {
-    odd_derivatives.push_back(derivative);
-    even_derivatives.push_back(derivative + 1);
-  }
-  const Eigen::Index n = elements + 1;
-  basis.even_from_nodes =
-      spline_coefficients(basis.nodes, degree, odd_derivatives, odd_derivatives).leftCols(n);
-  basis.odd_from_nodes =
-      spline_coefficients(basis.nodes, degree, even_derivatives, even_derivatives).leftCols(n);
-  basis.weights = basis.odd_from_nodes.transpose() * bspline_integrals(basis.nodes, degree);
+  basis.even_from_nodes = spline_coefficients(basis.nodes, 1);
+  basis.odd_from_nodes = spline_coefficients(basis.nodes, 2);
+  basis.weights = basis.odd_from_nodes.transpose() * bspline_integrals(basis.nodes);
   return basis;
 }
 
 Matrix MeridianBasis::even(const Vector &points, int derivative) const {
-  return spline_degree == 0 ? Matrix(waves(points, size(), 0, 0, derivative) * even_from_nodes)
-                            : spline_values(nodes, spline_degree, even_from_nodes, points, derivative);
+  return spline ? spline_values(nodes, even_from_nodes, points, derivative)
+                : Matrix(waves(points, size(), 0, 0, derivative) * even_from_nodes);
 }
 
 Matrix MeridianBasis::odd(const Vector &points, int derivative) const {
-  return spline_degree == 0 ? Matrix(waves(points, size(), 1, -1, derivative) * odd_from_nodes)
-                            : spline_values(nodes, spline_degree, odd_from_nodes, points, derivative);
+  return spline ? spline_values(nodes, odd_from_nodes, points, derivative)
+                : Matrix(waves(points, size(), 1, -1, derivative) * odd_from_nodes);
 }
 
 } // namespace capsule

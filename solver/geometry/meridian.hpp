@@ -6,9 +6,9 @@
 //   f(points) = even(points, 0) * f(nodes),  f''(points) = even(points, 2) * f(nodes)
 // - The spectral basis: cos(k zeta), k < N, and sin(k zeta), 1 <= k <= N, on the N Gauss-Legendre
 //   colatitudes (no node at a pole). Exponential accuracy on smooth shapes.
-// - The spline basis: B-splines of odd degree on N + 1 equidistant nodes, poles included, with the parities as
-//   end conditions (eqs. 19-26): even functions have no odd, odd functions no even derivatives below the
-//   degree at the poles. Order degree + 1 for the value, one less for each derivative.
+// - The spline basis: cubic B-splines on N + 1 equidistant nodes, poles included, with the parities as end
+//   conditions (eqs. 19-26): the first derivative of even functions vanishes at the poles, the second one of odd
+//   functions. Order 4 for the value, one less for each derivative.
 // An odd function vanishes at the poles: with splines, its nodal values there must be zero.
 // All throw std::invalid_argument when nodes are too few or not ascending, or points lie outside.
 #include "base/linear_algebra.hpp"
@@ -16,8 +16,8 @@
 namespace capsule {
 
 struct MeridianBasis {
-  int spline_degree = 0; // 0: spectral
-  Vector nodes;          // zeta, ascending
+  bool spline = false; // otherwise spectral
+  Vector nodes;        // zeta, ascending
   // Quadrature on the nodes: sum_j weights_j f(nodes_j) is the integral of an odd f over [0, pi]: exact for
   // sin(zeta) times a polynomial of degree 2N - 1 in cos(zeta) (spectral), for the interpolating spline
   // (spline).
@@ -32,6 +32,6 @@ struct MeridianBasis {
 };
 
 MeridianBasis spectral_basis(int nodes);
-MeridianBasis spline_basis(int elements, int degree); // degree 3, 5 or 7
+MeridianBasis spline_basis(int elements);
 
 } // namespace capsule

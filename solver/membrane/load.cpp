@@ -5,7 +5,7 @@
 namespace capsule {
 
 Vector nodal_area(const Membrane &membrane, const Vector &position) {
-  if (membrane.basis.spline_degree != 0)
+  if (membrane.basis.spline)
     throw std::invalid_argument("nodal loads need a spectral basis");
   const Trace nodes = trace(membrane.at_nodes, position);
   const Eigen::Index n = membrane.basis.size();

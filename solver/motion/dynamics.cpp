@@ -51,7 +51,8 @@ Dynamics paper_dynamics(const Case &physics) {
   Dynamics dynamics;
   dynamics.scene = std::make_shared<const Scene>(make_scene(physics));
   const auto scene = dynamics.scene;
-  const auto system = std::make_shared<const PaperSystem>(make_paper_system(physics));
+  const auto system = std::make_shared<const PaperSystem>(
+      make_paper_system(scene->pore.value(), physics.capsule, physics.membrane, physics.flow, physics.mesh));
   dynamics.flow = [system, scene](const Vector &position) {
     require_capsule(scene->pore, position, advice);
     return system->flow(position);

@@ -16,9 +16,8 @@ constexpr double pole_gap = 1e-5;
 
 Sampling integration_points(const MeridianBasis &basis) {
   const Eigen::Index nodes = basis.size();
-  const bool spline = basis.spline_degree > 0;
   const Panels panels =
-      make_panels(Vector::LinSpaced(spline ? nodes : nodes / 6 + 2, 0, pi), spline ? 4 : 12);
+      make_panels(Vector::LinSpaced(basis.spline ? nodes : nodes / 6 + 2, 0, pi), basis.spline ? 4 : 12);
   return sample(basis, panels.points, panels.weights);
 }
 

@@ -77,16 +77,16 @@ MeridianSpline spline_through(const PaperLoad &load, const Vector &position) {
   return {load.even_coefficients * position.head(nodes), load.odd_coefficients * position.tail(nodes)};
 }
 
-PaperLoad make_paper_load(const Case &physics, int elements) {
+PaperLoad make_paper_load(const CapsuleSpec &capsule, const MembraneSpec &material, int elements) {
   PaperLoad load;
-  load.law = {physics.membrane.law, physics.membrane.dilatation};
-  load.bending_ratio = physics.membrane.bending_ratio;
+  load.law = {material.law, material.dilatation};
+  load.bending_ratio = material.bending_ratio;
   load.even_coefficients = spline_coefficients(elements, 1).leftCols(elements + 1);
   load.odd_coefficients = spline_coefficients(elements, 2).leftCols(elements + 1);
   Vector zeta(elements + 1);
   for (Index j = 0; j <= elements; ++j)
     zeta(j) = std::numbers::pi * static_cast<double>(j) / elements;
-  Vector position = reference_position(physics.capsule, zeta);
+  Vector position = reference_position(capsule, zeta);
   position(2 * elements + 1) = 0; // the pole lies on the axis to the last digit
   load.reference = spline_through(load, position);
   return load;

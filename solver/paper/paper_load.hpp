@@ -8,7 +8,7 @@
 //   these splines
 // Splines of the shear force or of q through their nodal values do not see a mode that alternates from node
 // to node and let it grow; the measurements are in paper-notes/paper-preset.md.
-#include "case/case.hpp"
+#include "case/parameters.hpp"
 #include "law/law.hpp"
 #include "paper/paper_elements.hpp"
 
@@ -35,7 +35,7 @@ struct PaperLoad {
   MeridianSpline
       reference; // through the nodes of the ellipse, so that the undeformed capsule is free of load
 };
-PaperLoad make_paper_load(const Case &physics, int elements);
+PaperLoad make_paper_load(const CapsuleSpec &capsule, const MembraneSpec &material, int elements);
 
 MeridianSpline spline_through(const PaperLoad &load, const Vector &position);
 

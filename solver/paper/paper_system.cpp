@@ -410,19 +410,19 @@ Vector nodal_velocity(const Vector &solution, Index n) {
 
 } // namespace
 
-PaperSystem make_paper_system(const Case &physics) {
-  if (physics.flow.type != FlowType::pore || physics.pore.shape != PoreShape::hyperbolic)
+PaperSystem make_paper_system(const Pore &pore, const CapsuleSpec &capsule, const MembraneSpec &material,
+                              const FlowSpec &flow, const MeshSpec &mesh) {
+  if (flow.type != FlowType::pore || pore.shape != PoreShape::hyperbolic)
     throw InputError("numerics = \"paper\" computes the flow through a hyperbolic pore only");
-  const Pore pore = make_pore(physics.pore);
   PaperSystem system;
-  system.capillary_number = physics.flow.capillary_number;
-  system.viscosity_ratio = physics.flow.viscosity_ratio;
+  system.capillary_number = flow.capillary_number;
+  system.viscosity_ratio = flow.viscosity_ratio;
   const auto given_or = [](int elements, int standard) { return elements > 0 ? elements : standard; };
-  system.membrane_elements = given_or(physics.mesh.membrane, 60);
-  system.wall_elements = given_or(physics.mesh.wall, 120);
-  system.exit_elements = given_or(physics.mesh.exit, 30);
+  system.membrane_elements = given_or(mesh.membrane, 60);
+  system.wall_elements = given_or(mesh.wall, 120);
+  system.exit_elements = given_or(mesh.exit, 30);
   system.rules = make_rules();
-  system.load = make_paper_load(physics, system.membrane_elements);
+  system.load = make_paper_load(capsule, material, system.membrane_elements);
   system.wall = make_wall(pore, system.wall_elements, system.rules);
   system.exit = make_exit(pore.exit_x, system.exit_elements, system.rules);
   system.exit_unit = density_on(system.exit, unit_axial);

@@ -13,7 +13,7 @@
 //   they are bounded.
 // - The exit's nodes are equidistant; the corner (L_P, 1) belongs to the wall.
 // Positions and velocities are nodal, 2(N_M + 1): axial, then radial.
-#include "case/case.hpp"
+#include "case/parameters.hpp"
 #include "flow/flow_state.hpp"
 #include "geometry/pore.hpp"
 #include "paper/paper_load.hpp"
@@ -62,7 +62,8 @@ struct PaperSystem {
   FlowState flow(const Vector &position) const;
 };
 
-// Throws InputError unless the case is a flow through a hyperbolic pore.
-PaperSystem make_paper_system(const Case &physics);
+// Throws InputError unless the pore is hyperbolic and the flow goes through it.
+PaperSystem make_paper_system(const Pore &pore, const CapsuleSpec &capsule, const MembraneSpec &material,
+                              const FlowSpec &flow, const MeshSpec &mesh);
 
 } // namespace capsule

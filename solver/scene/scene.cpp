@@ -11,8 +11,7 @@ constexpr double section_margin = 0.1;
 
 // Cubic splines; the energy is sampled as the paper's load is, at five Gauss points of each element.
 Membrane paper_membrane(const Case &physics) {
-  constexpr int cubic = 3;
-  const MeridianBasis basis = spline_basis(physics.mesh.membrane, cubic);
+  const MeridianBasis basis = spline_basis(physics.mesh.membrane);
   const Panels elements = make_panels(Vector::LinSpaced(basis.size(), 0, std::numbers::pi), 5);
   return make_membrane(physics.capsule, physics.membrane, basis, elements.points, elements.weights);
 }

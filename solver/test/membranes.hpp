@@ -24,11 +24,10 @@ inline Membrane spectral_membrane(const Case &physics, int nodes) {
   return make_membrane(physics.capsule, physics.membrane, spectral_basis(nodes), dense.nodes, dense.weights);
 }
 
-// Quintic splines, sampled in the same way: their shapes have kinks in the fourth derivative only.
+// Cubic splines, sampled in the same way: their shapes have kinks in the second derivative.
 inline Membrane spline_membrane(const Case &physics, int elements) {
   const MeridianBasis dense = spectral_basis(elements * 4);
-  return make_membrane(physics.capsule, physics.membrane, spline_basis(elements, 5), dense.nodes,
-                       dense.weights);
+  return make_membrane(physics.capsule, physics.membrane, spline_basis(elements), dense.nodes, dense.weights);
 }
 
 inline std::vector<Case> all_laws(double bending_ratio) {
