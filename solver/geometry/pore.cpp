@@ -1,6 +1,6 @@
 #include "geometry/pore.hpp"
 #include "base/failure.hpp"
-#include <boost/math/quadrature/gauss.hpp>
+#include "geometry/quadrature.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -36,13 +36,21 @@ double hyperbola_speed(const Pore &pore, double w) {
 
 // Arc length from the lip.
 double hyperbola_arc(const Pore &pore, double w) {
+  static const GaussRule rule = gauss_legendre(20);
   const int pieces = static_cast<int>(std::ceil(w)) + 1;
   const double width = w / pieces;
-  double sum = 0;
-  for (int i = 0; i < pieces; ++i)
-    sum += boost::math::quadrature::gauss<double, 20>::integrate(
-        [&](double t) { return hyperbola_speed(pore, t); }, i * width, (i + 1) * width);
-  return sum;
+  double arc = 0;
+  for (int i = 0; i < pieces; ++i) {
+    const double from = i * width, to = (i + 1) * width;
+    const double middle = (from + to) / 2, half = (to - from) / 2;
+    double sum = 0;
+    for (Eigen::Index k = rule.size() / 2; k < rule.size(); ++k) { // nodes lie in pairs
+      const double step = half * rule.nodes[k];
+      sum += (hyperbola_speed(pore, middle + step) + hyperbola_speed(pore, middle - step)) * rule.weights[k];
+    }
+    arc += half * sum;
+  }
+  return arc;
 }
 
 // Inverse of hyperbola_arc: Newton's method from the right, where the arc is a convex function of w.
