@@ -11,13 +11,13 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Of equal parts of [0, pi].
+// Midpoints of equal parts of [0, pi].
 Vector midpoints(Eigen::Index parts) {
   return (Eigen::ArrayXd::LinSpaced(parts, 0, static_cast<double>(parts - 1)) + 0.5) * pi /
          static_cast<double>(parts);
 }
 
-// cos(k a) or sin(k a) at points a, k = 0 ... waves - 1.
+// cos(k a), sin(k a) at points a: a column for each k = 0 ... waves - 1.
 Eigen::ArrayXXd cosines(const Eigen::ArrayXd &a, Eigen::Index waves) {
   return (a.matrix() * Vector::LinSpaced(waves, 0, static_cast<double>(waves - 1)).transpose()).array().cos();
 }
@@ -25,7 +25,7 @@ Eigen::ArrayXXd sines(const Eigen::ArrayXd &a, Eigen::Index waves) {
   return (a.matrix() * Vector::LinSpaced(waves, 0, static_cast<double>(waves - 1)).transpose()).array().sin();
 }
 
-// The angle as a function of zeta and its slope: zeta and an odd rest.
+// The angle as a function of zeta: zeta plus a series of sines, whose coefficients are `rest`.
 struct AngleMap {
   AngleMap(const MeridianBasis &basis, const Vector &node_angle)
       : rest(basis.odd_from_nodes * (node_angle - basis.nodes)) {}
@@ -45,8 +45,7 @@ struct AngleMap {
   Vector rest;
 };
 
-// Where a function that grows from 0 to pi on [0, pi], with given slope, takes values: from a table, then by
-// Newton's method.
+// Inverse of a function that grows from 0 to pi on [0, pi], at given values: from a table, then by Newton's method.
 template <class Value, class Slope>
 Eigen::ArrayXd inverted(const Value &value, const Slope &slope, const Eigen::ArrayXd &at) {
   constexpr int newton_steps = 4;
@@ -64,7 +63,7 @@ Eigen::ArrayXd inverted(const Value &value, const Slope &slope, const Eigen::Arr
   return result;
 }
 
-// Of a smooth density of nodes per angle the logarithm: coefficients of its cosines.
+// The logarithm of a smooth density of nodes per angle, as coefficients of cosines of the angle.
 Vector density_logarithm(const MeridianBasis &basis, const Vector &node_angle, const Vector &position) {
   constexpr double shortest_wave = 24; // about
   constexpr Eigen::Index waves = 64, points = 1024;
@@ -88,7 +87,7 @@ Vector density_logarithm(const MeridianBasis &basis, const Vector &node_angle, c
   return coefficients;
 }
 
-// The angles at which the integral of a density has grown evenly with zeta.
+// Angles of nodes zeta with this density: its integral over the angle grows evenly with zeta.
 Vector angles_of_density(const Vector &logarithm, const Vector &zeta) {
   constexpr Eigen::Index waves = 256, points = 1024;
   const Vector angle = midpoints(points);
@@ -112,7 +111,8 @@ Vector angles_of_density(const Vector &logarithm, const Vector &zeta) {
 Vector suitable_angles(const MeridianBasis &new_basis, const MeridianBasis &basis, const Vector &node_angle,
                        const Vector &position) {
   const Vector logarithm = density_logarithm(basis, node_angle, position);
-  // The shape has no more waves than the nodes that it comes from: fewer tell which density resolves it best.
+  // The shape has no more waves than its own nodes carry: on as many nodes every density would do. Fewer tell which
+  // one resolves it best.
   const MeridianBasis fewer =
       spectral_basis(std::max(3, static_cast<int>(0.6 * static_cast<double>(basis.size()))));
   double best = 0, least = std::numeric_limits<double>::infinity();

@@ -28,8 +28,8 @@ enum class Graded { first, last, both };
 Vector graded_edges(double a, double b, double smallest, double largest, Graded ends);
 
 // Weights w with sum_k w_k f(t_k) = integral over [-1, 1] of ln((t - t0)^2) f(t) dt, exact for polynomials of
-// degree below the rule's number of points. t0 is any real number; the rule's own weights serve from |t0| of
-// about 3 on.
+// degree below the rule's number of points. t0 is any real number; beyond |t0| of about 3 the rule's own weights
+// with ln((t - t0)^2) f as integrand are as good.
 Vector logarithm_weights(const GaussRule &rule, double t0);
 
 // values at `points` from values at `nodes` by the interpolating polynomial (barycentric); points x nodes.

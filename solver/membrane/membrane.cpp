@@ -278,8 +278,8 @@ Matrix energy_hessian(const Membrane &membrane, const Vector &position) {
   const Eigen::Index n = membrane.basis.size();
   Matrix hessian(2 * n, 2 * n);
   // Each block is a sum of (matrix of a variable)^T times (its local row applied to the matrices of the
-  // others). It is summed on its own: with a power of two as distance of the columns, places in the cache
-  // would be shared.
+  // others). It is summed on its own: columns of the Hessian may lie a power of two apart and would then share
+  // places in the cache.
   Matrix row_applied(at.zeta.size(), n), sum(n, n);
   const auto block = [&](Local first_row, Local end_row, Local first_column,
                          Local end_column) -> const Matrix & {

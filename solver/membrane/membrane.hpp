@@ -53,7 +53,7 @@ MembraneState membrane_state(const Membrane &membrane, const Sampling &at, const
 // whose bending part gives exactly the moments of eq. 6 and, with the tensions, the equilibrium of eq. 7 (see
 // paper-notes/equations.md).
 double elastic_energy(const Membrane &membrane, const Vector &position);
-// dW/dposition, 2N. With splines, the radial entries of the poles are what holds them on the axis, and no
+// dW/dposition, 2N. With splines, the radial entries at the poles are forces that hold them on the axis, and no
 // load.
 Vector energy_gradient(const Membrane &membrane, const Vector &position);
 // d^2 W/dposition^2, 2N x 2N, symmetric.

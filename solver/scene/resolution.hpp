@@ -1,6 +1,6 @@
 #pragma once
-// From the accuracy asked for to mesh, quadrature and time tolerance. Keys of the case override what they
-// name. How the numbers were found: paper-notes/methods.md.
+// Mesh, quadrature and time tolerance, chosen from the accuracy asked for. Keys of the case override what they name.
+// How the numbers were found: paper-notes/methods.md.
 #include "case/case.hpp"
 #include "flow/flow_resolution.hpp"
 
