@@ -72,7 +72,8 @@ public:
   March(const Case &physics, const Checkpoint &from, const Control &control, Part part,
         double roughest = wrinkle_roughness)
       : physics_(physics), control_(control), part_(part), roughest_(roughest),
-        dynamics_(make_dynamics(physics)), gauge_(physics, dynamics_.scene->membrane), record_(from) {
+        dynamics_(make_dynamics(physics)), gauge_(dynamics_.scene->pore, dynamics_.scene->membrane),
+        record_(from) {
     const Vector &start = started() ? record_.position : dynamics_.scene->start;
     const bool by_position = physics.until.x_g.has_value();
     by_x_g_ = stations(gauge_.centre(start), row_spacing, physics.until.x_g, physics.output.profiles_at_x_g);

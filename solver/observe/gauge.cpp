@@ -88,10 +88,9 @@ double roughness_of(const Vector &amplitudes) {
 
 } // namespace
 
-Gauge::Gauge(const Case &physics, const Membrane &membrane)
-    : membrane_(membrane), panels_(integration_points(membrane.basis)), fine_(pole_to_pole(membrane.basis)) {
-  if (physics.pore.shape != PoreShape::none)
-    pore_ = make_pore(physics.pore);
+Gauge::Gauge(const std::optional<Pore> &pore, const Membrane &membrane)
+    : membrane_(membrane), pore_(pore), panels_(integration_points(membrane.basis)),
+      fine_(pole_to_pole(membrane.basis)) {
   initial_ = integrals(membrane_.reference);
   waves_ = waves_from_nodes(membrane_.basis.nodes);
 
@@ -113,31 +112,24 @@ Gauge::Gauge(const Case &physics, const Membrane &membrane)
 }
 
 Gauge::Integrals Gauge::integrals(const Vector &position) const {
-  const Eigen::Index n = membrane_.basis.size();
-  const Eigen::ArrayXd x = panels_.even[0] * position.head(n);
-  const Eigen::ArrayXd r = panels_.odd[0] * position.tail(n);
-  const Eigen::ArrayXd x_zeta = panels_.even[1] * position.head(n);
-  const Eigen::ArrayXd r_zeta = panels_.odd[1] * position.tail(n);
-  const Eigen::ArrayXd slice = pi * panels_.weights.array() * r.square() * x_zeta;
-  return {slice.sum(), (slice * x).sum(),
-          2 * pi * (panels_.weights.array() * r * (x_zeta.square() + r_zeta.square()).sqrt()).sum()};
+  const Trace curve = trace(panels_, position);
+  const auto r = curve.r.array();
+  const Eigen::ArrayXd slice = pi * panels_.weights.array() * r.square() * curve.x_zeta.array();
+  return {slice.sum(), (slice * curve.x.array()).sum(),
+          2 * pi * (panels_.weights.array() * r * curve.arc.array()).sum()};
 }
 
 double Gauge::centre(const Vector &position) const {
-  const Eigen::Index n = membrane_.basis.size();
-  const Eigen::ArrayXd x = panels_.even[0] * position.head(n);
-  const Eigen::ArrayXd r = panels_.odd[0] * position.tail(n);
-  const Eigen::ArrayXd slice =
-      panels_.weights.array() * r.square() * (panels_.even[1] * position.head(n)).array();
-  return (slice * x).sum() / slice.sum();
+  const Trace curve = trace(panels_, position);
+  const Eigen::ArrayXd slice = panels_.weights.array() * curve.r.array().square() * curve.x_zeta.array();
+  return (slice * curve.x.array()).sum() / slice.sum();
 }
 
 double Gauge::film(const Vector &position) const {
   if (!pore_)
     return std::numeric_limits<double>::infinity();
-  const Eigen::Index n = membrane_.basis.size();
-  const Vector x = fine_.even[0] * position.head(n);
-  const Vector r = fine_.odd[0] * position.tail(n);
+  const Trace curve = trace(fine_, position);
+  const Vector &x = curve.x, &r = curve.r;
   // From one point to the next the distance cannot fall by more than the way between them: points that are
   // surely farther than the nearest one are passed over.
   Vector distance(x.size());
@@ -164,9 +156,8 @@ double Gauge::film(const Vector &position) const {
 }
 
 bool Gauge::crosses_itself(const Vector &position) const {
-  const Eigen::Index n = membrane_.basis.size();
-  const Vector x = fine_.even[0] * position.head(n);
-  const Vector r = fine_.odd[0] * position.tail(n);
+  const Trace curve = trace(fine_, position);
+  const Vector &x = curve.x, &r = curve.r;
   // Twice the area of the triangle of points a, b, c: its sign tells the side of the line ab on which c lies.
   const auto side = [&](Eigen::Index a, Eigen::Index b, Eigen::Index c) {
     return (x[b] - x[a]) * (r[c] - r[a]) - (r[b] - r[a]) * (x[c] - x[a]);
@@ -209,12 +200,11 @@ SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity
   row.area_change = (now.area - initial_.area) / initial_.area;
 
   // v_g = (1/V) int (x - x_g) v.n dA, with n dA = 2 pi r (-r', x') dzeta
-  const Eigen::ArrayXd x = panels_.even[0] * position.head(n);
-  const Eigen::ArrayXd r = panels_.odd[0] * position.tail(n);
+  const Trace curve = trace(panels_, position), moving = trace(panels_, velocity);
   const Eigen::ArrayXd flux =
-      (panels_.odd[0] * velocity.tail(n)).array() * (panels_.even[1] * position.head(n)).array() -
-      (panels_.even[0] * velocity.head(n)).array() * (panels_.odd[1] * position.tail(n)).array();
-  row.v_g = 2 * pi * (panels_.weights.array() * (x - row.x_g) * r * flux).sum() / now.volume;
+      moving.r.array() * curve.x_zeta.array() - moving.x.array() * curve.r_zeta.array();
+  row.v_g = 2 * pi * (panels_.weights.array() * (curve.x.array() - row.x_g) * curve.r.array() * flux).sum() /
+            now.volume;
   row.max_axial_residual = (velocity.head(n).array() - row.v_g).abs().maxCoeff();
   row.max_radial_velocity = velocity.tail(n).cwiseAbs().maxCoeff();
 

@@ -15,7 +15,7 @@ constexpr double dent_angle = 0.15;
 // points four times as dense as the nodes with a quartic through the best five.
 class Gauge {
 public:
-  Gauge(const Case &physics, const Membrane &membrane);
+  Gauge(const std::optional<Pore> &pore, const Membrane &membrane); // no pore: unbounded liquid
 
   double centre(const Vector &position) const; // x_g
   // Smallest distance to the wall, negative beyond it; infinite without a wall.

@@ -48,7 +48,7 @@ std::string poorly_resolved(int nodes) {
 // Row and profile of a state with its centre at x = 0; no rates yet.
 SteadyRecord measure(const SteadyState &state) {
   const SteadySystem &system = *state.system;
-  const Gauge gauge(system.scene(), system.membrane());
+  const Gauge gauge(system.pore(), system.membrane());
   Vector position = state.unknowns.head(2 * system.nodes());
   position.head(system.nodes()).array() -= gauge.centre(position);
   const FlowState flow = system.flow(position);

@@ -29,6 +29,7 @@ public:
   const Membrane &membrane() const { return membrane_; }
   double largest_stretch(const Vector &unknowns) const; // meridional, at the nodes
   const Case &scene() const { return scene_; }          // with the tube that stands for the pore
+  const std::optional<Pore> &pore() const { return pore_; }
 
   // Builds a longer tube if the membrane has come too near to its ends.
   void fit_tube(const Vector &unknowns);

@@ -44,7 +44,8 @@ BOOST_AUTO_TEST_CASE(presets_agree) {
     const auto first_row = [&] {
       const Dynamics dynamics = make_dynamics(physics);
       const FlowState state = dynamics.report(dynamics.scene->start, true);
-      SeriesRow row = Gauge(physics, dynamics.scene->membrane).row(0, dynamics.scene->start, state.velocity);
+      SeriesRow row =
+          Gauge(dynamics.scene->pore, dynamics.scene->membrane).row(0, dynamics.scene->start, state.velocity);
       row.pressure_drop = state.pressure_drop;
       return row;
     };

@@ -30,7 +30,10 @@ Body body(const Case &physics, int nodes) {
   const MeridianBasis basis = spectral_basis(nodes);
   const Membrane membrane =
       make_membrane(physics.capsule, physics.membrane, basis, basis.nodes, basis.weights);
-  return {basis, membrane, Gauge(physics, membrane)};
+  std::optional<Pore> pore;
+  if (physics.pore.shape != PoreShape::none)
+    pore = make_pore(physics.pore);
+  return {basis, membrane, Gauge(pore, membrane)};
 }
 
 Vector moved(const Vector &reference, double x) {

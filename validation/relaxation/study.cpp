@@ -79,7 +79,7 @@ Published published(const Row &row, const std::string &which) {
 class SmallMotions {
 public:
   SmallMotions(const SteadyState &state, double viscosity_ratio)
-      : state_(state), gauge_(state.system->scene(), state.system->membrane()),
+      : state_(state), gauge_(state.system->pore(), state.system->membrane()),
         eigen_(small_motion(*state.system, state.unknowns, viscosity_ratio)),
         inverse_(eigen_.eigenvectors().inverse()) {}
 

@@ -270,7 +270,7 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
   const Dynamics dynamics = make_dynamics(physics);
   const Membrane &membrane = dynamics.scene->membrane;
   const Flow flow = make_flow(physics, membrane.basis, resolution.flow);
-  const Gauge gauge(physics, membrane);
+  const Gauge gauge(dynamics.scene->pore, membrane);
   Shares shares;
   double velocity = 0; // load, interaction and systems
   const auto clocked = [](double &sum, const auto &function) {

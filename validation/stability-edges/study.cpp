@@ -43,7 +43,8 @@ struct Seen {
 Seen seen(const Case &physics, const Vector &position) {
   const Dynamics dynamics = make_dynamics(physics);
   const FlowState state = dynamics.flow(position);
-  return {state.pressure_drop, Gauge(physics, dynamics.scene->membrane).row(0, position, state.velocity).v_g};
+  return {state.pressure_drop,
+          Gauge(dynamics.scene->pore, dynamics.scene->membrane).row(0, position, state.velocity).v_g};
 }
 
 struct Distance {
