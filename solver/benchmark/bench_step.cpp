@@ -29,7 +29,8 @@ Case asked_for(const benchmark::State &state) {
 void assembly(benchmark::State &state) {
   const Case physics = asked_for(state);
   const Dynamics dynamics = make_dynamics(physics);
-  const Flow flow = make_flow(physics, dynamics.scene->membrane.basis, choose_resolution(physics).flow);
+  const Flow flow = make_flow(dynamics.scene->pore, physics.flow, dynamics.scene->membrane.basis,
+                              choose_resolution(physics).flow);
   for ([[maybe_unused]] auto _ : state)
     benchmark::DoNotOptimize(flow.interact(dynamics.scene->start));
 }

@@ -101,9 +101,9 @@ double right_angle_distance(double x, double r) {
 
 } // namespace
 
-Pore make_pore(const PoreSpec &spec) {
+std::optional<Pore> make_pore(const PoreSpec &spec) {
   if (spec.shape == PoreShape::none)
-    throw InputError("pore.shape = \"none\" has no wall");
+    return std::nullopt;
   const double degrees = spec.opening_angle_deg;
   if (!(degrees > 0 && degrees <= 90))
     throw InputError(fmt::format("pore.opening_angle_deg = {} is not in (0, 90]", degrees));

@@ -7,6 +7,7 @@
 //   tan^2(alpha). With alpha = 90 degrees the hyperbola is the flat wall x = 0, r >= 1 and the lip a right
 //   angle. PoreShape::tube is the straight tube r = 1 from L_P to x = -L_E.
 #include "case/parameters.hpp"
+#include <optional>
 
 namespace capsule {
 
@@ -18,8 +19,8 @@ struct Pore {
   double entrance_distance = 0; // L_E
   double entrance_arc = 0;      // arc length of the whole wall
 };
-// Throws InputError for PoreShape::none, which has no wall, and for L_E or alpha out of range.
-Pore make_pore(const PoreSpec &spec);
+// Empty for PoreShape::none, which has no wall. Throws InputError for L_P, L_E or alpha out of range.
+std::optional<Pore> make_pore(const PoreSpec &spec);
 
 struct WallPoint {
   double x, r;

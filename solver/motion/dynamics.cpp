@@ -21,7 +21,7 @@ Dynamics standard_dynamics(const Case &physics) {
   dynamics.scene = std::make_shared<const Scene>(make_scene(physics));
   const auto scene = dynamics.scene;
   const auto flow = std::make_shared<const Flow>(
-      make_flow(physics, scene->membrane.basis, choose_resolution(physics).flow));
+      make_flow(scene->pore, physics.flow, scene->membrane.basis, choose_resolution(physics).flow));
   const auto recycled = std::make_shared<RecycledFlow>();
   const FlowType type = physics.flow.type;
   dynamics.forget = [recycled] { *recycled = {}; };

@@ -2,18 +2,18 @@
 
 namespace capsule {
 
-Wall make_wall(const Case &physics, const FlowResolution &resolution) {
-  if (physics.pore.shape == PoreShape::none)
-    return Wall(physics.flow.type == FlowType::extension ? extensional_flow : liquid_at_rest);
-  return {make_pore(physics.pore), resolution};
+Wall make_wall(const std::optional<Pore> &pore, FlowType type, const FlowResolution &resolution) {
+  if (!pore)
+    return Wall(type == FlowType::extension ? extensional_flow : liquid_at_rest);
+  return {*pore, resolution};
 }
 
-Flow make_flow(const Case &physics, const MeridianBasis &basis, const FlowResolution &resolution) {
-  return {
-      make_wall(physics, resolution),
-      make_membrane_mesh(basis, resolution),
-      {.capillary_number = physics.flow.capillary_number, .viscosity_ratio = physics.flow.viscosity_ratio},
-      resolution.solver_tolerance};
+Flow make_flow(const std::optional<Pore> &pore, const FlowSpec &spec, const MeridianBasis &basis,
+               const FlowResolution &resolution) {
+  return {make_wall(pore, spec.type, resolution),
+          make_membrane_mesh(basis, resolution),
+          {.capillary_number = spec.capillary_number, .viscosity_ratio = spec.viscosity_ratio},
+          resolution.solver_tolerance};
 }
 
 } // namespace capsule

@@ -1,12 +1,13 @@
 #pragma once
-// The flow of a case around its membrane.
-#include "case/case.hpp"
+// The flow around a membrane in a scene's pore, or in unbounded liquid where there is none.
 #include "flow/flow.hpp"
+#include "geometry/pore.hpp"
+#include <optional>
 
 namespace capsule {
 
-// Throws InputError for a pore that is none (pore.hpp).
-Wall make_wall(const Case &physics, const FlowResolution &resolution);
-Flow make_flow(const Case &physics, const MeridianBasis &basis, const FlowResolution &resolution);
+Wall make_wall(const std::optional<Pore> &pore, FlowType type, const FlowResolution &resolution);
+Flow make_flow(const std::optional<Pore> &pore, const FlowSpec &spec, const MeridianBasis &basis,
+               const FlowResolution &resolution);
 
 } // namespace capsule

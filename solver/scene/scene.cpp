@@ -26,8 +26,7 @@ Vector start_position(const Membrane &membrane, double start_x) {
 
 Scene make_scene(const Case &physics) {
   Scene scene;
-  if (physics.pore.shape != PoreShape::none)
-    scene.pore = make_pore(physics.pore);
+  scene.pore = make_pore(physics.pore);
   scene.membrane = physics.numerics == Numerics::paper
                        ? paper_membrane(physics)
                        : standard_membrane(physics.capsule, physics.membrane, choose_resolution(physics));

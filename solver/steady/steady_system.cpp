@@ -46,9 +46,8 @@ void SteadySystem::build_flow() {
   scene_.pore.exit_x = half_length_;
   scene_.pore.entrance_distance = half_length_;
   resolution_.flow.fine_half_length = half_length_ - wall_beyond;
-  if (scene_.pore.shape != PoreShape::none)
-    pore_ = make_pore(scene_.pore);
-  flow_ = make_flow(scene_, membrane_.basis, resolution_.flow);
+  pore_ = make_pore(scene_.pore);
+  flow_ = make_flow(pore_, scene_.flow, membrane_.basis, resolution_.flow);
 }
 
 void SteadySystem::set_parameters(const Case &physics) {

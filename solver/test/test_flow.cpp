@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(viscous_drop_translates) {
   for (const double lambda : {0.1, 1.0, 5.0, 100.0}) {
     Case physics = unbounded_case();
     physics.flow.viscosity_ratio = lambda;
-    const Flow flow = make_flow(physics, basis, {});
+    const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
     const Vector position = sphere(basis, a, 0);
     const Eigen::ArrayXd x = position.head(n);
     const Eigen::ArrayXd r = position.tail(n);
@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_in_a_tube) {
     physics.pore.entrance_distance = 2;
     const MeridianBasis basis = spectral_basis(48);
     const Eigen::Index n = basis.size();
-    const Flow flow = make_flow(physics, basis, {});
+    const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
     const Vector position = sphere(basis, row.a, 7);
     const Interaction interaction = flow.interact(position);
     Recycled recycled, traction;
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(pressure_drop_by_two_routes) {
       physics.flow.viscosity_ratio = lambda;
       const MeridianBasis basis = spectral_basis(40);
       const Eigen::Index n = basis.size();
-      const Flow flow = make_flow(physics, basis, {});
+      const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
       const Vector position = sphere(basis, 0.7, x);
       Vector load(2 * n); // smooth, with the parities and no resultant
       const Eigen::ArrayXd zeta = basis.nodes;
@@ -139,7 +139,8 @@ BOOST_AUTO_TEST_CASE(nodes_beside_quadrature_points) {
     physics.mesh.membrane = nodes;
     physics.accuracy = 1e-6;
     const MeridianBasis basis = spectral_basis(nodes);
-    const Flow flow = make_flow(physics, basis, choose_resolution(physics).flow);
+    const Flow flow =
+        make_flow(make_pore(physics.pore), physics.flow, basis, choose_resolution(physics).flow);
     Vector position = sphere(basis, 0.8, 10);
     position.head(nodes).array() += 0.1 * (2 * basis.nodes.array()).cos();
     position.tail(nodes).array() += 1e-6 * (nodes / 2 * basis.nodes.array()).sin();
@@ -166,7 +167,7 @@ BOOST_AUTO_TEST_CASE(recycling_changes_nothing) {
     const Eigen::Index n = basis.size();
     FlowResolution resolution;
     resolution.solver_tolerance = 1e-9;
-    const Flow flow = make_flow(physics, basis, resolution);
+    const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, resolution);
     Recycled carried, carried_traction;
     for (const int k : {0, 1, 2, 3, 4, 5, 5, 5, 5, 5, 5, 60, 60, 1}) {
       Vector position = sphere(basis, 0.7, -0.5 + 0.12 * k);
@@ -199,7 +200,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_solved_is_a_failure) {
   for (const double lambda : {1.0, 5.0}) {
     Case physics = unbounded_case();
     physics.flow.viscosity_ratio = lambda;
-    const Flow flow = make_flow(physics, basis, {});
+    const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
     const Interaction interaction = flow.interact(position);
     Recycled none;
     const Vector velocity = flow.solve(interaction, load, none).velocity;
@@ -235,7 +236,7 @@ BOOST_AUTO_TEST_CASE(velocity_around_a_capsule) {
     physics.flow.viscosity_ratio = lambda;
     const MeridianBasis basis = spectral_basis(40);
     const Eigen::Index n = basis.size();
-    const Flow flow = make_flow(physics, basis, {});
+    const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
     Vector load(2 * n); // as above
     const Eigen::ArrayXd zeta = basis.nodes;
     load << (2 * zeta).cos() + 1.0 / 3, (zeta.sin() * (1 + zeta.cos()));

@@ -30,10 +30,7 @@ Body body(const Case &physics, int nodes) {
   const MeridianBasis basis = spectral_basis(nodes);
   const Membrane membrane =
       make_membrane(physics.capsule, physics.membrane, basis, basis.nodes, basis.weights);
-  std::optional<Pore> pore;
-  if (physics.pore.shape != PoreShape::none)
-    pore = make_pore(physics.pore);
-  return {basis, membrane, Gauge(pore, membrane)};
+  return {basis, membrane, Gauge(make_pore(physics.pore), membrane)};
 }
 
 Vector moved(const Vector &reference, double x) {

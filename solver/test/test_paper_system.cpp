@@ -24,7 +24,7 @@ Case small_case(double radius, int membrane, int wall) {
 }
 
 PaperSystem paper_system_of(const Case &physics) {
-  return make_paper_system(make_pore(physics.pore), physics.capsule, physics.membrane, physics.flow,
+  return make_paper_system(make_pore(physics.pore).value(), physics.capsule, physics.membrane, physics.flow,
                            physics.mesh);
 }
 

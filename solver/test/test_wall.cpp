@@ -1,5 +1,5 @@
 // The empty pore against exact solutions.
-#include "scene/make_flow.hpp"
+#include "flow/wall.hpp"
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 
@@ -10,9 +10,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Wall pore_wall(double opening_angle_deg = 78.5) {
-  Case physics;
-  physics.pore.opening_angle_deg = opening_angle_deg;
-  return make_wall(physics, {});
+  return {make_pore({.opening_angle_deg = opening_angle_deg}).value(), {}};
 }
 
 } // namespace

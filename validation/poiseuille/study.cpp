@@ -28,7 +28,7 @@ double difference(const Targets &points, const Vector &velocity) {
 double behind_mouth(const std::string &directory) {
   Case physics = physics_of("fig07-viscosity-sphere");
   physics.pore.opening_angle_deg = 90;
-  const Wall empty = make_wall(physics, {});
+  const Wall empty = make_wall(make_pore(physics.pore), physics.flow.type, {});
   Table table("x,difference");
   for (int k = 0; k <= 30; ++k) {
     const Targets points = section(0.05 * k);
@@ -44,14 +44,15 @@ double at_tips(const std::string &directory) {
       read_case("cases/fig07-viscosity-sphere", {"flow.viscosity_ratio=1", "until.x_g=10"});
   const Case &physics = input.runs.at(0).physics;
   const Outcome outcome = march(physics, {}, {});
-  const Membrane membrane = make_scene(physics).membrane;
-  const Flow flow = make_flow(physics, membrane.basis, choose_resolution(physics).flow);
+  const Scene scene = make_scene(physics);
+  const Flow flow =
+      make_flow(scene.pore, physics.flow, scene.membrane.basis, choose_resolution(physics).flow);
   const Vector &position = outcome.last.position;
   const Interaction interaction = flow.interact(position);
-  const Vector load = membrane_load(membrane, position);
+  const Vector load = membrane_load(scene.membrane, position);
   Recycled recycled;
   const FlowState state = flow.solve(interaction, load, recycled);
-  const Vector x = position.head(membrane.basis.size());
+  const Vector x = position.head(scene.membrane.basis.size());
   const auto off = [&](double at) {
     return difference(section(at), flow.outer_velocity(section(at), interaction, load, state));
   };

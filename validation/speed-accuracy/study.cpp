@@ -269,7 +269,7 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
   const Resolution resolution = choose_resolution(physics);
   const Dynamics dynamics = make_dynamics(physics);
   const Membrane &membrane = dynamics.scene->membrane;
-  const Flow flow = make_flow(physics, membrane.basis, resolution.flow);
+  const Flow flow = make_flow(dynamics.scene->pore, physics.flow, membrane.basis, resolution.flow);
   const Gauge gauge(dynamics.scene->pore, membrane);
   Shares shares;
   double velocity = 0; // load, interaction and systems
@@ -299,9 +299,7 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
   shares.system = std::max(0.0, velocity - once);
   shares.integrator = cpu_seconds() - began - once - velocity - shares.jacobian;
 
-  Case unbounded = physics;
-  unbounded.pore.shape = PoreShape::none;
-  const Flow membrane_alone = make_flow(unbounded, membrane.basis, resolution.flow);
+  const Flow membrane_alone = make_flow(std::nullopt, physics.flow, membrane.basis, resolution.flow);
   std::vector<double> alone, all, row;
   for (const Vector &shape : shapes) {
     alone.push_back(seconds_of([&] { membrane_alone.interact(shape); }));

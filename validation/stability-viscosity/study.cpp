@@ -72,7 +72,7 @@ bool systems(const std::string &directory, const Vector &position, const Vector 
       continue;
     const Case physics = entrance(ratio);
     const Shape shape = shape_of(physics);
-    const Flow flow = make_flow(physics, shape.basis, shape.resolution);
+    const Flow flow = make_flow(make_pore(physics.pore), physics.flow, shape.basis, shape.resolution);
     const Condition found = condition(flow, shape, position, before);
     const double exact = exact_eigenvalue(ratio);
     const double deviation = std::abs(found.smallest_eigenvalue / exact - 1);
