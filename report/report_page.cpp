@@ -1,8 +1,8 @@
-// Writes the report: one HTML page that holds everything and fetches nothing.
+// Writes the report: one HTML page that contains everything and loads nothing.
 //   report_page PAGE DIRECTORY...
-// PAGE is written; every DIRECTORY is a case or a study, cases/<id> or validation/<id>, whose figures, comparison and
-// results are taken from figures/<id>/, tables/<id>.csv and results/<id>/, as `make figures` and `make atlas` leave
-// them. What a directory has not computed yet is left out. The page's frame, style and player lie beside this file.
+// writes PAGE. Each DIRECTORY is a case, cases/<id>, or a study, validation/<id>. Its figures, comparison and results are
+// read from figures/<id>/, tables/<id>.csv and results/<id>/, where `make figures` and `make atlas` write them; what has
+// not been computed yet is left out. The page's frame, style and player are beside this file.
 #include "base/atomic_file.hpp"
 #include "base/csv.hpp"
 #include "base/text.hpp"
@@ -48,7 +48,7 @@ std::string escaped(const std::string &text) {
   return html;
 }
 
-// Turns every `mark`...`mark` of a text into an element.
+// Makes an element of each part of a text that stands between two marks.
 std::string marked(const std::string &text, const std::string &mark, const std::string &element) {
   std::string html;
   std::size_t from = 0;
@@ -64,7 +64,7 @@ std::string marked(const std::string &text, const std::string &mark, const std::
   return html + text.substr(from);
 }
 
-// A caption's Markdown: a paragraph with **strong** words and `code`; its pictures are placed elsewhere.
+// A caption in HTML. Its Markdown is a paragraph with **strong** words and `code`; pictures in it are left out.
 std::string caption(const fs::path &markdown) {
   std::istringstream lines(capsule::read_file(markdown));
   std::string text;
@@ -87,7 +87,7 @@ std::string base64(const std::string &bytes) {
   return text;
 }
 
-// A cell that starts with a verdict wears its colour; a column of published values looks different from ours.
+// A cell that starts with a verdict has its colour; published values look different from computed ones.
 std::string table_cell(const std::string &column, const std::string &text) {
   if (column.starts_with("published"))
     return fmt::format("<td class=\"published\">{}</td>", escaped(text));
@@ -99,7 +99,7 @@ std::string table_cell(const std::string &column, const std::string &text) {
   return fmt::format("<td>{}</td>", escaped(text));
 }
 
-// Of a file's columns those that are named, in this order, or all.
+// The columns that are wanted, in this order, or all columns of the file.
 std::string table(const fs::path &csv, const std::vector<std::string> &wanted = {}) {
   const std::vector<capsule::CsvRow> rows = capsule::read_csv(csv);
   const std::vector<std::string> names = rows.empty() ? std::vector<std::string>() : rows[0].fields;
@@ -122,7 +122,7 @@ std::string table(const fs::path &csv, const std::vector<std::string> &wanted = 
   return html + "</tbody></table></div>\n";
 }
 
-// What the page shows of the ledger; tables/ledger.csv has the rest.
+// The columns of tables/ledger.csv that the page shows.
 std::string ledger() {
   const fs::path csv = "tables/ledger.csv";
   return fs::exists(csv) ? table(csv, {"claim", "where", "statement", "verdict", "published", "converged",
@@ -130,7 +130,7 @@ std::string ledger() {
                          : "<p>Not computed yet.</p>";
 }
 
-// The question of a case or study: the first line of its README.md, or its name where it has none.
+// The question of a case or study: the first line of its README.md, or its name if it has none.
 std::string question(const fs::path &directory) {
   const fs::path readme = directory / "README.md";
   if (!fs::exists(readme))
@@ -139,13 +139,13 @@ std::string question(const fs::path &directory) {
   return marked(escaped(line.substr(line.find_first_not_of("# "))), "`", "code");
 }
 
-// The figures of a case or study, each with its finding, and how its numbers compare.
+// The figures of a case or study, each with its caption, and the comparison of its numbers.
 std::string chapter(const fs::path &directory) {
   const std::string id = directory.filename();
   std::string html;
   for (const fs::path &picture : files_of(fs::path("figures") / id, ".svg")) {
     const std::string text = caption(fs::path(picture).replace_extension(".md"));
-    // Drawn for a printed column, they are shown half as large again.
+    // They are drawn for a printed column; the page shows them 1.5 times as large.
     html +=
         fmt::format("<figure><img alt=\"{}\" "
                     "srcset=\"data:image/svg+xml;base64,{} 0.67x\">\n<figcaption>{}</figcaption></figure>\n",
@@ -159,7 +159,7 @@ std::string chapter(const fs::path &directory) {
                                     escaped(id), question(directory), html, escaped(directory.string()));
 }
 
-// The tables of the paper, computed beside published: tables/table<n>.csv, as the cases' figures leave them.
+// The tables of the paper, computed beside published values: tables/table<n>.csv, which the cases' figures write.
 std::string paper_tables() {
   std::string html;
   for (const fs::path &csv : files_of("tables", ".csv"))
@@ -168,7 +168,7 @@ std::string paper_tables() {
   return html;
 }
 
-// The finished marches of all cases, with their results' directories; a run that several cases share counts once.
+// The directories of the finished marches of all cases; a run that several cases share counts once.
 std::vector<fs::path> finished_runs(const std::vector<fs::path> &cases) {
   std::vector<fs::path> runs;
   std::map<std::string, fs::path> known;
@@ -218,7 +218,7 @@ std::string provenance(const std::vector<fs::path> &runs) {
   return html + "</tbody></table></div>\n";
 }
 
-// As many digits as a picture needs.
+// With as many digits as a picture needs.
 double rounded(double value) {
   return std::round(value * 1e4) / 1e4;
 }
@@ -238,7 +238,7 @@ const std::vector<PlayerField> player_fields = {{"stretch_meridional", "stretch 
                                                 {"tension_meridional", "tension along the meridian", 0},
                                                 {"tension_azimuthal", "tension around the axis", 0}};
 
-// The rows at which the profiles of a run begin, in the order in which they were taken, and the end of the last.
+// The rows at which the profiles of a run begin, in the order in which they were taken, and the end of the last one.
 std::vector<std::size_t> profile_bounds(const std::vector<double> &time) {
   std::vector<std::size_t> bounds;
   for (std::size_t i = 0; i < time.size(); ++i)
@@ -248,7 +248,7 @@ std::vector<std::size_t> profile_bounds(const std::vector<double> &time) {
   return bounds;
 }
 
-// Frame of the player of the profile in the rows from `first` to before `last`.
+// The player's frame of the profile in the rows from `first` to before `last`.
 Json player_frame(const capsule::Columns &profiles, std::size_t first, std::size_t last) {
   constexpr std::size_t most_points = 128; // of a profile; the eye sees no more
   const std::size_t stride = 1 + (last - first) / most_points;
@@ -283,7 +283,7 @@ std::string capsule_name(const Json &parameters) {
   return nodes.is_null() ? name : fmt::format("{}, {} nodes", name, nodes.dump());
 }
 
-// The runs that keep enough profiles to be seen in motion.
+// The runs that have enough profiles to be played.
 std::string player_data(const std::vector<fs::path> &runs) {
   constexpr std::size_t fewest_frames = 20;
   Json played = Json::array();
@@ -312,7 +312,7 @@ std::string player_data(const std::vector<fs::path> &runs) {
   return Json({{"fields", fields}, {"runs", played}}).dump();
 }
 
-// The frame with every @name@ replaced.
+// The frame with each @name@ replaced by its part.
 std::string filled(const std::string &frame, const std::map<std::string, std::string> &parts) {
   std::string page;
   std::size_t from = 0;

@@ -52,7 +52,7 @@ bool is_blank(const CsvRow &row) {
   return std::ranges::all_of(row.fields, [](const std::string &field) { return trimmed(field).empty(); });
 }
 
-// One field, and a semicolon or a tab in it: nobody names a column like that.
+// Whether the one field of the first row has semicolons or tabs in it, which are not part of a column's name.
 bool has_other_separators(const CsvRow &names) {
   return names.fields.size() == 1 && names.fields[0].find_first_of(";\t") != std::string::npos;
 }

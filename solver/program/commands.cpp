@@ -42,7 +42,7 @@ void listen_to_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-// A case of the project that is called by its name alone, or by a name that is nearly right, is named in full.
+// Reads the case. If there is none, the error suggests the project's case of this, or a similar, name.
 CaseInput read_case_of(const Arguments &arguments, const Task &task = {}) {
   try {
     return read_case(arguments.path, arguments.overrides, task);
@@ -64,7 +64,7 @@ struct Computation {
   Method method = march;
 };
 
-// results/<case> for its motion, results/<case>/steady and results/<case>/branch for its steady states.
+// results/<case> for marches, results/<case>/steady and results/<case>/branch for steady states.
 fs::path usual_place(const fs::path &results, const CaseInput &input, const Task &task) {
   return task.motion ? results / input.name : results / input.name / task.name.substr(0, task.name.find(' '));
 }
@@ -109,7 +109,7 @@ std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arg
   return results;
 }
 
-// Into the table, as one run: the summary that a study, validation/<name>/study.cpp, has left.
+// Adds the summary of a study, validation/<name>/study.cpp, to the table as one run, if there is one.
 void add_study(const std::string &name, RunTable &table) {
   RunResult result;
   result.directory = fs::path("results") / name;
@@ -119,8 +119,8 @@ void add_study(const std::string &name, RunTable &table) {
   table.add(name, {result});
 }
 
-// Into the table: these cases of the project, computed where they are not finished, and studies. Returns whether all are
-// finished now.
+// Adds these cases of the project, computed where they are not finished, and studies to the table. Returns false if a case
+// was interrupted.
 bool add_project_cases(const std::vector<std::string> &names, const fs::path &published,
                        const Arguments &arguments, RunTable &table) {
   for (const std::string &name : names) {
@@ -144,7 +144,7 @@ std::string unfinished_text(const RunState &state) {
   return state.fraction > 0 ? fmt::format("{:.0f} % done", 100 * state.fraction) : "to be computed";
 }
 
-// Prints one line for each run, for programs that distribute the runs: its number, its directory's name, its identity,
+// Prints one line for each run, for programs that distribute the runs: its number, the name of its directory, its identity,
 // what there is of it.
 ExitCode list_runs(const CaseInput &input, const RunOptions &options) {
   for (std::size_t i = 0; i < input.runs.size(); ++i) {
