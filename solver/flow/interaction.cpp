@@ -221,6 +221,12 @@ Matrix Interaction::double_at_wall() const {
   return result;
 }
 
+Vector Interaction::answer_of_wall(const Vector &at_wall) const {
+  if (wall_->unknowns() == 0) // BLAS takes no matrix without columns
+    return Vector::Zero(2 * mesh_->nodes);
+  return from_wall_ * (wall_->inverse() * at_wall);
+}
+
 Vector Interaction::velocity_at(const Targets &points, const Vector &single_density,
                                 const Vector &double_density) const {
   RowMatrix layer;
@@ -232,7 +238,7 @@ Vector Interaction::velocity_at(const Targets &points, const Vector &single_dens
     velocity += layer * mesh_->at_panels(double_density);
     at_wall += double_at_wall(double_density);
   }
-  return velocity - wall_->velocity(points, wall_->inverse() * at_wall);
+  return velocity - wall_->velocity_of(at_wall, points);
 }
 
 } // namespace capsule

@@ -49,7 +49,7 @@ public:
   Matrix single_at_wall() const;
   Matrix double_at_wall() const;
   // C A^(-1): from the wall back to the nodes. It includes what the drive does when the pressure rises.
-  Vector answer_of_wall(const Vector &at_wall) const { return from_wall_ * (wall_->inverse() * at_wall); }
+  Vector answer_of_wall(const Vector &at_wall) const;
   RowMatrix answer_of_wall() const { return from_wall_ * wall_->inverse(); }
 
   // Velocity at points off the membranes: the layers of nodal densities and what the wall answers. An empty density

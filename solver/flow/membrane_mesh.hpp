@@ -5,8 +5,8 @@
 //   panel vectors, 2Q   the same at the quadrature points
 // Throws std::invalid_argument for membranes whose panels differ in their number of points or near tolerance.
 #include "flow/flow_resolution.hpp"
+#include "geometry/sampling.hpp"
 #include "integrals/layer_potential.hpp"
-#include "membrane/membrane.hpp"
 #include <span>
 
 namespace capsule {

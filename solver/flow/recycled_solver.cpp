@@ -25,8 +25,6 @@ Matrix inverse_of(const Matrix &system) {
 Vector continued_solution(const Recycled &recycled, const Vector &position) {
   constexpr double negligible = 1e-6; // of a step beside another one
   constexpr double far = 20;          // times the steps between the last shapes
-  if (recycled.positions.empty())
-    return Vector::Zero(position.size());
   const auto count = static_cast<Eigen::Index>(recycled.positions.size()) - 1;
   if (count == 0)
     return recycled.solutions[0];

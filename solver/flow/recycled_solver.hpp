@@ -17,7 +17,7 @@ struct Recycled {
 
 // Throws if the matrix is singular.
 Matrix inverse_of(const Matrix &system);
-// The solution at a position, from the last ones along a smooth path of shapes.
+// The solution at a position, from the last ones along a smooth path of shapes: one at least.
 Vector continued_solution(const Recycled &recycled, const Vector &position);
 void remember_solution(const Vector &position, const Vector &solution, Recycled &recycled);
 NumericsFailure not_converged();
@@ -33,7 +33,8 @@ Vector solve_recycled(const Vector &position, double tolerance, Recycled &recycl
   constexpr int most_corrections = 10; // a fresh inverse costs some tens of them
   if (recycled.inverse.size() == 0)
     recycled.inverse = inverse_of(matrix());
-  Vector solution = continued_solution(recycled, position);
+  Vector solution = recycled.positions.empty() ? Vector::Zero(recycled.inverse.rows())
+                                               : continued_solution(recycled, position);
   for (const bool fresh : {false, true}) {
     if (fresh)
       recycled.inverse = inverse_of(matrix());

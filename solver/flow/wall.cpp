@@ -111,16 +111,17 @@ double Wall::pressure_drop(const Vector &at_wall) const {
   return unknowns() == 0 ? 0 : inverse_.row(outlet_unknown()).dot(at_wall);
 }
 
-Vector Wall::velocity(const Targets &points, const Vector &forces) const {
+Vector Wall::velocity_of(const Vector &at_wall, const Targets &points) const {
   if (unknowns() == 0)
     return Vector::Zero(2 * points.size());
-  return response(points) * forces.cwiseQuotient(weights_);
+  return response(points) * (inverse_ * at_wall).cwiseQuotient(weights_);
 }
 
 Vector Wall::base_velocity(const Targets &points) const {
   if (closed_form_ != nullptr)
     return closed_form_(points);
-  return velocity(points, base_forces_) + outlet_.base_velocity(points, outlet_.single_layer(points));
+  return response(points) * base_forces_.cwiseQuotient(weights_) +
+         outlet_.base_velocity(points, outlet_.single_layer(points));
 }
 
 Vector Wall::base_velocity(const Targets &points, const RowMatrix &from_forces,

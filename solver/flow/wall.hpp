@@ -24,13 +24,13 @@ public:
   // Of the curve's panels, for targets off the wall.
   const FixedNearRule &near() const { return fixed_near_; }
 
-  // From velocities b at the equations to the forces A^(-1) b. Applied several times a step, once to a matrix in a
+  // From velocities b in the equations to the forces A^(-1) b. Applied several times a step, once to a matrix in a
   // Jacobian.
   const RowMatrix &inverse() const { return inverse_; }
   // The outlet's row of it: the extra pressure drop -P'.
   double pressure_drop(const Vector &at_wall) const;
-  // Velocity of forces at any points, 2 n.
-  Vector velocity(const Targets &points, const Vector &forces) const;
+  // Velocity at any points, 2 n, of the forces that answer b.
+  Vector velocity_of(const Vector &at_wall, const Targets &points) const;
 
   // The flow without membranes at unit flow rate, and its pressure drop from the entrance section to the outlet.
   Vector base_velocity(const Targets &points) const;
