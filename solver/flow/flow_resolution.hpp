@@ -8,7 +8,7 @@ namespace capsule {
 struct FlowResolution {
   int membrane_panel_points = 12;
   double membrane_panel = 0.25; // largest panel in zeta
-  Vector membrane_edges;        // of the panels in zeta; empty: they follow from membrane_panel
+  Vector membrane_edges = {};   // of the panels in zeta; empty: they follow from membrane_panel
   int wall_panel_points = 12;
   double wall_panel = 0.75; // largest panel in the tube
   // Of a tube without a mouth: half-width of the middle part that has panels of this length. A steady capsule

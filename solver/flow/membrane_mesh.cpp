@@ -1,12 +1,60 @@
 #include "flow/membrane_mesh.hpp"
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
 
 namespace capsule {
 
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Curve blank_curve(Eigen::Index size, Eigen::Index panel_points) {
+  Curve curve;
+  curve.panel_points = panel_points;
+  for (Vector *field : {&curve.x, &curve.r, &curve.x_zeta, &curve.r_zeta, &curve.weights})
+    field->resize(size);
+  return curve;
+}
+
+} // namespace
+
 Vector even_membrane_edges(const MeridianBasis &basis, double largest_panel) {
-  return graded_edges(0, std::numbers::pi, 0.75 * basis.nodes[0], largest_panel, Graded::both);
+  return graded_edges(0, pi, 0.75 * basis.nodes[0], largest_panel, Graded::both);
+}
+
+Vector halved_edges(const MeridianBasis &basis, const Vector &position, const Vector &edges,
+                    double most_turning) {
+  constexpr Eigen::Index points = 2048;
+  constexpr double width = pi / points;
+  constexpr double shortest = 8 * width; // even at a cusp
+  const Eigen::Index n = basis.size();
+  const Vector zeta = Vector::LinSpaced(points, width / 2, pi - width / 2);
+  const Eigen::ArrayXd x_1 = basis.even(zeta, 1) * position.head(n),
+                       x_2 = basis.even(zeta, 2) * position.head(n);
+  const Eigen::ArrayXd r_1 = basis.odd(zeta, 1) * position.tail(n),
+                       r_2 = basis.odd(zeta, 2) * position.tail(n);
+  const Eigen::ArrayXd turning = (x_1 * r_2 - r_1 * x_2).abs() / (x_1.square() + r_1.square()) * width;
+  const auto turning_between = [&](double from, double to) {
+    const auto place = [&](double at) {
+      return std::clamp<Eigen::Index>(std::lround(at / pi * points), 0, points);
+    };
+    return turning.segment(place(from), place(to) - place(from)).sum();
+  };
+  std::vector<double> result{edges[0]};
+  const std::function<void(double, double)> add = [&](double from, double to) {
+    if (to - from > shortest && turning_between(from, to) > most_turning) {
+      add(from, (from + to) / 2);
+      add((from + to) / 2, to);
+    } else
+      result.push_back(to);
+  };
+  for (Eigen::Index k = 1; k < edges.size(); ++k)
+    add(edges[k - 1], edges[k]);
+  return Eigen::Map<Vector>(result.data(), std::ssize(result));
 }
 
 MembraneMesh make_membrane_mesh(const MeridianBasis &basis, const FlowResolution &resolution) {
@@ -79,18 +127,6 @@ Matrix MembraneMesh::on_nodes(const RowMatrix &on_panels) const {
   }
   return result;
 }
-
-namespace {
-
-Curve blank_curve(Eigen::Index size, Eigen::Index panel_points) {
-  Curve curve;
-  curve.panel_points = panel_points;
-  for (Vector *field : {&curve.x, &curve.r, &curve.x_zeta, &curve.r_zeta, &curve.weights})
-    field->resize(size);
-  return curve;
-}
-
-} // namespace
 
 MembraneShape shape_at(const MembraneMesh &mesh, const Vector &position) {
   const Eigen::Index n = mesh.nodes;

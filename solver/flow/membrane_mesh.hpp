@@ -14,6 +14,11 @@ namespace capsule {
 // Panels without regard to a membrane's shape: as long as allowed, shorter at the poles.
 Vector even_membrane_edges(const MeridianBasis &basis, double largest_panel);
 
+// Edges of panels: those given, and more where panels are halved until the tangent turns by no more than most_turning
+// (radians) in each.
+Vector halved_edges(const MeridianBasis &basis, const Vector &position, const Vector &edges,
+                    double most_turning);
+
 struct MembraneMesh {
   struct Part { // one membrane
     MeridianBasis basis;

@@ -4,7 +4,6 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 namespace capsule {
 namespace {
@@ -136,37 +135,6 @@ Vector at_angles(const Vector &angles, const MeridianBasis &basis, const Vector 
   Vector moved(2 * zeta.size());
   moved << basis.even(zeta, 0) * position.head(n), basis.odd(zeta, 0) * position.tail(n);
   return moved;
-}
-
-Vector halved_edges(const MeridianBasis &basis, const Vector &position, const Vector &edges,
-                    double most_turning) {
-  constexpr Eigen::Index points = 2048;
-  constexpr double shortest = 8 * pi / points; // even at a cusp
-  const Eigen::Index n = basis.size();
-  const Vector zeta = midpoints(points);
-  const Eigen::ArrayXd x_1 = basis.even(zeta, 1) * position.head(n),
-                       x_2 = basis.even(zeta, 2) * position.head(n);
-  const Eigen::ArrayXd r_1 = basis.odd(zeta, 1) * position.tail(n),
-                       r_2 = basis.odd(zeta, 2) * position.tail(n);
-  const Eigen::ArrayXd turning =
-      (x_1 * r_2 - r_1 * x_2).abs() / (x_1.square() + r_1.square()) * (pi / points);
-  const auto turning_between = [&](double from, double to) {
-    const auto place = [&](double at) {
-      return std::clamp<Eigen::Index>(std::lround(at / pi * points), 0, points);
-    };
-    return turning.segment(place(from), place(to) - place(from)).sum();
-  };
-  std::vector<double> result{edges[0]};
-  const std::function<void(double, double)> add = [&](double from, double to) {
-    if (to - from > shortest && turning_between(from, to) > most_turning) {
-      add(from, (from + to) / 2);
-      add((from + to) / 2, to);
-    } else
-      result.push_back(to);
-  };
-  for (Eigen::Index k = 1; k < edges.size(); ++k)
-    add(edges[k - 1], edges[k]);
-  return Eigen::Map<Vector>(result.data(), std::ssize(result));
 }
 
 double unresolved_part(const MeridianBasis &basis, const Vector &position) {

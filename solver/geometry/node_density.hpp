@@ -15,11 +15,6 @@ Vector suitable_angles(const MeridianBasis &new_basis, const MeridianBasis &basi
 Vector at_angles(const Vector &angles, const MeridianBasis &basis, const Vector &node_angle,
                  const Vector &position);
 
-// Edges of panels: those given, and more where panels are halved until the tangent turns by no more than most_turning
-// (radians) in each.
-Vector halved_edges(const MeridianBasis &basis, const Vector &position, const Vector &edges,
-                    double most_turning);
-
 // Amplitude of the last tenth of the basis' waves in a position, root of the sum of squares: not small where the shape
 // is poorly resolved.
 double unresolved_part(const MeridianBasis &basis, const Vector &position);

@@ -58,45 +58,4 @@ BOOST_AUTO_TEST_CASE(shapes_move_with_the_membrane) {
   BOOST_TEST((undeformed - reference_position(oblate, even)).cwiseAbs().maxCoeff() < 1e-10);
 }
 
-// On a circle the tangent turns as the parameter: halving pi twice leaves quarters.
-BOOST_AUTO_TEST_CASE(panels_turn_little) {
-  const MeridianBasis basis = spectral_basis(30);
-  Vector circle(60);
-  circle << -basis.nodes.array().cos(), basis.nodes.array().sin();
-  Vector ends(2);
-  ends << 0, pi;
-  const Vector quarters = halved_edges(basis, circle, ends, 0.9);
-  BOOST_REQUIRE(quarters.size() == 5);
-  for (Eigen::Index k = 0; k < 5; ++k)
-    BOOST_TEST(std::abs(quarters[k] - static_cast<double>(k) * pi / 4) < 1e-14);
-  BOOST_TEST(halved_edges(basis, circle, ends, 4).size() == 2);
-}
-
-// Short ones at the fold only, with the edges that were there.
-BOOST_AUTO_TEST_CASE(a_fold_gets_short_panels) {
-  const MeridianBasis basis = spectral_basis(200);
-  const Vector edges = Vector::LinSpaced(9, 0, pi);
-  const Vector halved = halved_edges(basis, folded(basis.nodes), edges, 0.5);
-  const Vector lengths = halved.tail(halved.size() - 1) - halved.head(halved.size() - 1);
-  Eigen::Index shortest = 0;
-  BOOST_TEST(lengths.minCoeff(&shortest) < 0.05);
-  BOOST_TEST(std::abs(halved[shortest] - 0.8) < 0.2);
-  for (const double edge : edges)
-    BOOST_TEST((halved.array() - edge).abs().minCoeff() < 1e-14);
-}
-
-// A tip where the tangent turns at once ends the halving all the same.
-BOOST_AUTO_TEST_CASE(a_cusp_is_cut_off) {
-  const MeridianBasis basis = spectral_basis(60);
-  const Eigen::ArrayXd c = basis.nodes.array().cos();
-  Vector cusp(120);
-  cusp << -(c.square() / 2 - std::cos(1) * c),
-      basis.nodes.array().sin() * ((c - std::cos(1)).square() + 1e-3);
-  Vector ends(2);
-  ends << 0, pi;
-  const Vector halved = halved_edges(basis, cusp, ends, 0.5);
-  BOOST_TEST(halved.size() > 2);
-  BOOST_TEST(halved.size() < 100);
-}
-
 BOOST_AUTO_TEST_SUITE_END()
