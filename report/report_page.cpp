@@ -7,6 +7,7 @@
 #include "base/csv.hpp"
 #include "base/text.hpp"
 #include "case/case_file.hpp"
+#include "law/law.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -272,11 +273,17 @@ Json player_frame(const capsule::Columns &profiles, std::size_t first, std::size
 
 // Which capsule in which flow: "sphere, Skalak C = 0, R_eq = 0.9, ε = 0.04, λ = 10".
 std::string capsule_name(const Json &parameters) {
-  const auto number = [&](const char *key) { return capsule::number_text(parameters.at(key).get<double>()); };
+  const auto number = [&](const std::string &key) {
+    return capsule::number_text(parameters.at(key).get<double>());
+  };
   const double aspect_ratio = parameters.at("capsule.aspect_ratio").get<double>();
   std::string name = aspect_ratio == 1 ? "sphere" : "spheroid A/B = " + number("capsule.aspect_ratio");
-  name += parameters.at("membrane.law") == "skalak" ? ", Skalak C = " + number("membrane.dilatation")
-                                                    : ", neo-Hookean";
+  for (const capsule::Law *law : capsule::laws())
+    if (parameters.at("membrane.law") == law->name) {
+      name += fmt::format(", {}", law->title);
+      for (const capsule::LawParameter &declared : law->parameters)
+        name += fmt::format(" {} = {}", declared.symbol, number(std::string("membrane.") + declared.name));
+    }
   name += fmt::format(", R_eq = {}, ε = {}, λ = {}", number("capsule.radius"),
                       number("flow.capillary_number"), number("flow.viscosity_ratio"));
   const Json &nodes = parameters.at("mesh.membrane");

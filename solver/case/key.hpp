@@ -5,6 +5,7 @@
 #include "case/located_text.hpp"
 #include "case/units.hpp"
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -23,13 +24,13 @@ using Value = std::variant<Unsupported, std::string, std::int64_t, double, std::
 // Where a key's value lives in a Case.
 template <class T>
 struct Member {
-  T &(*in)(Case &);
-  const T &(*of)(const Case &);
+  std::function<T &(Case &)> in;
+  std::function<const T &(const Case &)> of;
 };
 struct Choice {
-  std::vector<std::string> names; // in the order of the enumeration
-  void (*set)(Case &, int);
-  int (*get)(const Case &);
+  std::vector<std::string> names;
+  std::function<void(Case &, int)> set; // to a name's index
+  std::function<int(const Case &)> get;
 };
 // With a unit: "5 um".
 struct Measured {
@@ -55,6 +56,7 @@ struct Key {
   std::string automatic = {};
   bool required = false;
   SteadyRole steady = SteadyRole::result;
+  std::vector<std::string> notes = {}; // for `capsule keys`, a line each
 };
 
 // Why the key cannot take a value, if it cannot.

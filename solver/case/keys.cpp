@@ -1,20 +1,23 @@
 #include "case/keys.hpp"
 #include "case/case.hpp"
+#include "law/law.hpp"
 #include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
 
 namespace capsule {
 namespace {
 
 // `Access` is a generic lambda that returns a reference into a Case, constant or not.
 template <class T, class Access>
-Member<T> member(Access /*at*/) {
-  return {[](Case &c) -> T & { return Access{}(c); }, [](const Case &c) -> const T & { return Access{}(c); }};
+Member<T> member(Access at) {
+  return {at, at};
 }
 
 template <class E, class Access>
-Field choice(Access /*at*/, std::vector<std::string> names) {
-  return Choice{std::move(names), [](Case &c, int index) { Access{}(c) = static_cast<E>(index); },
-                [](const Case &c) { return static_cast<int>(Access{}(c)); }};
+Field choice(Access at, std::vector<std::string> names) {
+  return Choice{std::move(names), [at](Case &c, int index) { at(c) = static_cast<E>(index); },
+                [at](const Case &c) { return static_cast<int>(at(c)); }};
 }
 
 template <class Access>
@@ -41,8 +44,7 @@ Key parameter(Key key) {
   return key;
 }
 
-std::vector<Key> make_keys() {
-  const std::string of_accuracy = "from accuracy";
+std::vector<Key> general_keys() {
   return {
       {"title", "one line about the case", member<std::string>(CAPSULE_AT(title)), any_number,
        "the case's name"},
@@ -51,7 +53,11 @@ std::vector<Key> make_keys() {
       {"numerics", "preset: the best we have, or section 3 of the paper to the letter",
        choice<Numerics>(CAPSULE_AT(numerics), {"standard", "paper"}), any_number},
       {"accuracy", "relative error asked for", member<double>(CAPSULE_AT(accuracy)), from_to(1e-8, 1e-2)},
+  };
+}
 
+std::vector<Key> pore_keys() {
+  return {
       of_motion({"pore.shape", "hyperbolic mouth and tube; tube without a mouth; none: unbounded liquid",
                  choice<PoreShape>(CAPSULE_AT(pore.shape), {"hyperbolic", "tube", "none"}), any_number,
                  "hyperbolic; none with flow.type = \"extension\""}),
@@ -61,7 +67,11 @@ std::vector<Key> make_keys() {
                  above_up_to(0, 1000)}),
       of_motion({"pore.entrance_distance", "distance of the entrance section, L_E",
                  member<double>(CAPSULE_AT(pore.entrance_distance)), above_up_to(1, 1000)}),
+  };
+}
 
+std::vector<Key> capsule_keys() {
+  return {
       parameter({"capsule.radius",
                  "radius of the sphere of the same volume, R_eq; or physical.capsule_radius",
                  member<double>(CAPSULE_AT(capsule.radius)), above_up_to(0, 10),
@@ -71,28 +81,78 @@ std::vector<Key> make_keys() {
       of_motion({"capsule.start_x", "centre of the undeformed capsule at time 0",
                  member<double>(CAPSULE_AT(capsule.start_x)), any_number,
                  "-4; 0 with flow.type = \"extension\""}),
+  };
+}
 
-      {"membrane.law", "law of the in-plane tensions, eqs. 4 and 5",
-       choice<LawName>(CAPSULE_AT(membrane.law), {"neo-hookean", "skalak"}), any_number, "required", true},
-      parameter({"membrane.dilatation", "C of Skalak's law, eq. 5",
-                 member<double>(CAPSULE_AT(membrane.dilatation)), above(-0.5)}),
-      parameter({"membrane.bending_ratio", "bending stiffness over G R_t^2, delta",
-                 member<double>(CAPSULE_AT(membrane.bending_ratio)), at_least(0)}),
+// The parameters of all laws, in the order in which MembraneLaw holds their values.
+std::vector<Key> law_parameter_keys() {
+  std::vector<Key> found;
+  for (const Law *law : laws())
+    for (const LawParameter &declared : law->parameters) {
+      const auto at = [place = found.size()](auto &c) -> auto & {
+        return c.membrane.law.all_values()[place];
+      };
+      found.push_back(parameter(
+          {std::string("membrane.") + declared.name, declared.meaning, member<double>(at), declared.range}));
+    }
+  return found;
+}
 
+Key law_key() {
+  std::vector<std::string> names;
+  Key key{"membrane.law",
+          "law of the in-plane tensions: w/G, with a and b for the stretches",
+          {},
+          any_number,
+          "required",
+          true};
+  for (const Law *law : laws()) {
+    names.emplace_back(law->name);
+    key.notes.push_back(fmt::format("{}: {}", law->name, law->formula));
+  }
+  key.field =
+      Choice{std::move(names),
+             [](Case &c, int index) { c.membrane.law.choose(*laws()[static_cast<std::size_t>(index)]); },
+             [](const Case &c) {
+               return static_cast<int>(std::ranges::find(laws(), &c.membrane.law.law()) - laws().begin());
+             }};
+  return key;
+}
+
+std::vector<Key> membrane_keys() {
+  std::vector<Key> table = {law_key()};
+  std::ranges::move(law_parameter_keys(), std::back_inserter(table));
+  table.push_back(parameter({"membrane.bending_ratio", "bending stiffness over G R_t^2, delta",
+                             member<double>(CAPSULE_AT(membrane.bending_ratio)), at_least(0)}));
+  return table;
+}
+
+std::vector<Key> flow_keys() {
+  return {
       {"flow.type", "given flow rate through the pore, or uniaxial extension of an unbounded liquid",
        choice<FlowType>(CAPSULE_AT(flow.type), {"pore", "extension"}), any_number},
       parameter({"flow.capillary_number", "epsilon = mu Q/(pi R_t^2 G); extension: mu e a/G",
                  member<double>(CAPSULE_AT(flow.capillary_number)), above(0), "required", true}),
       {"flow.viscosity_ratio", "internal over external viscosity, lambda",
        member<double>(CAPSULE_AT(flow.viscosity_ratio)), from_to(1e-4, 1e4)},
+  };
+}
 
+std::vector<Key> mesh_keys() {
+  const std::string of_accuracy = "from accuracy";
+  return {
       {"mesh.membrane", "elements or nodes of the membrane, N_M", member<int>(CAPSULE_AT(mesh.membrane)),
        from_to(4, 10000), of_accuracy + "; 60 with numerics = \"paper\""},
       {"mesh.wall", "elements of the wall, N_B", member<int>(CAPSULE_AT(mesh.wall)), from_to(4, 10000),
        of_accuracy + "; 120 with numerics = \"paper\""},
       of_motion({"mesh.exit", "elements of the exit section, N_P", member<int>(CAPSULE_AT(mesh.exit)),
                  from_to(2, 10000), "30 with numerics = \"paper\", otherwise without meaning"}),
+  };
+}
 
+std::vector<Key> time_keys() {
+  const std::string of_accuracy = "from accuracy";
+  return {
       of_motion({"time.scheme",
                  "error-controlled BDF; explicit Euler or Runge-Kutta of order 4 with a given step",
                  choice<Scheme>(CAPSULE_AT(time.scheme), {"bdf", "euler", "rk4"}), any_number,
@@ -101,13 +161,21 @@ std::vector<Key> make_keys() {
                  "2.5e-4 with time.scheme = \"euler\", required with \"rk4\""}),
       of_motion({"time.tolerance", "absolute error of the nodes' positions in one step, in units of R_t",
                  member<double>(CAPSULE_AT(time.tolerance)), from_to(1e-13, 1e-2), of_accuracy}),
+  };
+}
 
+std::vector<Key> until_keys() {
+  return {
       of_motion({"until.x_g", "stop when the centre of mass is here",
                  member<std::optional<double>>(CAPSULE_AT(until.x_g)), any_number,
                  "11.84, unless until.time is given"}),
       of_motion({"until.time", "stop at this time", member<std::optional<double>>(CAPSULE_AT(until.time)),
                  above(0), "none"}),
+  };
+}
 
+std::vector<Key> physical_keys() {
+  return {
       {"physical.tube_radius", "R_t with its unit; with this section results come in SI units too",
        measured(CAPSULE_AT(physical.tube_radius), dimension::length)},
       {"physical.viscosity", "of the external liquid, mu",
@@ -127,7 +195,11 @@ std::vector<Key> make_keys() {
        measured(CAPSULE_AT(physical.capsule_radius), dimension::length)},
       {"physical.internal_viscosity", "instead of flow.viscosity_ratio",
        measured(CAPSULE_AT(physical.internal_viscosity), dimension::viscosity)},
+  };
+}
 
+std::vector<Key> output_keys() {
+  return {
       of_motion({"output.profiles_at_x_g", "positions at which the profile is written",
                  member<std::vector<double>>(CAPSULE_AT(output.profiles_at_x_g)), any_number, "none"}),
       of_motion({"output.profiles_at_time", "times at which the profile is written",
@@ -136,6 +208,14 @@ std::vector<Key> make_keys() {
 }
 
 #undef CAPSULE_AT
+
+std::vector<Key> make_keys() {
+  std::vector<Key> table;
+  for (const auto &section : {general_keys, pore_keys, capsule_keys, membrane_keys, flow_keys, mesh_keys,
+                              time_keys, until_keys, physical_keys, output_keys})
+    std::ranges::move(section(), std::back_inserter(table));
+  return table;
+}
 
 } // namespace
 

@@ -3,6 +3,7 @@
 // Q/(pi R_t^2), times with pi R_t^3/Q, pressures with mu Q/(pi R_t^3), tensions with G, bending moments with G R_t.
 // The keys of a case file are the names below, joined by dots: "pore.exit_x".
 #include "case/units.hpp"
+#include "law/law.hpp"
 #include <cmath>
 #include <optional>
 #include <string>
@@ -11,7 +12,6 @@
 namespace capsule {
 
 enum class PoreShape { hyperbolic, tube, none };
-enum class LawName { neo_hookean, skalak };
 enum class FlowType { pore, extension };
 enum class Numerics { standard, paper }; // the best preset we have; section 3 of the paper
 enum class Scheme { bdf, euler, rk4 };
@@ -39,8 +39,7 @@ inline Extent extent(const CapsuleSpec &capsule) {
 }
 
 struct MembraneSpec {
-  LawName law = LawName::neo_hookean;
-  double dilatation = 1;       // C of Skalak's law, eq. 5
+  MembraneLaw law;
   double bending_ratio = 1e-5; // delta
 };
 

@@ -11,15 +11,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The surface Young modulus over G, for small strain.
-double young_over_shear(const Case &physics) {
-  const double c = physics.membrane.dilatation;
-  return physics.membrane.law == LawName::neo_hookean ? 3 : 2 * (1 + 2 * c) / (1 + c);
-}
-
 double shear_modulus(const Case &physics) {
   const auto &p = physics.physical;
-  return p.shear_modulus.si > 0 ? p.shear_modulus.si : p.young_modulus.si / young_over_shear(physics);
+  return p.shear_modulus.si > 0 ? p.shear_modulus.si
+                                : p.young_modulus.si / physics.membrane.law.young_modulus();
 }
 
 // Pressure drop of the empty pore, scaled with mu Q/(pi R_t^3).

@@ -203,7 +203,7 @@ Membrane make_membrane(const CapsuleSpec &capsule, const MembraneSpec &material,
 }
 
 void set_material(const CapsuleSpec &capsule, const MembraneSpec &material, Membrane &membrane) {
-  membrane.law = {material.law, material.dilatation};
+  membrane.law = material.law;
   membrane.bending_ratio = material.bending_ratio;
   membrane.reference = reference_position(capsule, membrane.node_angle);
   membrane.undeformed = undeformed_at(membrane.sampling, membrane.reference);

@@ -79,7 +79,7 @@ MeridianSpline spline_through(const PaperLoad &load, const Vector &position) {
 
 PaperLoad make_paper_load(const CapsuleSpec &capsule, const MembraneSpec &material, int elements) {
   PaperLoad load;
-  load.law = {material.law, material.dilatation};
+  load.law = material.law;
   load.bending_ratio = material.bending_ratio;
   load.even_coefficients = spline_coefficients(elements, 1).leftCols(elements + 1);
   load.odd_coefficients = spline_coefficients(elements, 2).leftCols(elements + 1);

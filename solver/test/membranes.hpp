@@ -1,5 +1,8 @@
 #pragma once
 // Membranes, shapes and displacements for tests, and derivatives by differences.
+#include "case/case.hpp"
+#include "law/neo_hookean.hpp"
+#include "law/skalak.hpp"
 #include "membrane/membrane.hpp"
 #include <functional>
 #include <random>
@@ -7,13 +10,11 @@
 
 namespace capsule {
 
-inline Case capsule_case(double radius, double aspect_ratio, LawName law, double dilatation,
-                         double bending_ratio) {
+inline Case capsule_case(double radius, double aspect_ratio, const MembraneLaw &law, double bending_ratio) {
   Case physics;
   physics.capsule.radius = radius;
   physics.capsule.aspect_ratio = aspect_ratio;
   physics.membrane.law = law;
-  physics.membrane.dilatation = dilatation;
   physics.membrane.bending_ratio = bending_ratio;
   return physics;
 }
@@ -31,9 +32,9 @@ inline Membrane spline_membrane(const Case &physics, int elements) {
 }
 
 inline std::vector<Case> all_laws(double bending_ratio) {
-  return {capsule_case(0.9, 0.7, LawName::neo_hookean, 1, bending_ratio),
-          capsule_case(0.9, 0.7, LawName::skalak, 0, bending_ratio),
-          capsule_case(0.9, 0.7, LawName::skalak, 1.5, bending_ratio)};
+  return {capsule_case(0.9, 0.7, neo_hookean, bending_ratio),
+          capsule_case(0.9, 0.7, {skalak, {0}}, bending_ratio),
+          capsule_case(0.9, 0.7, {skalak, {1.5}}, bending_ratio)};
 }
 
 // A strongly deformed smooth shape: the reference plus random waves of decaying amplitude, parities kept.

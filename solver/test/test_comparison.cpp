@@ -2,6 +2,7 @@
 #include "base/failure.hpp"
 #include "compare/comparison.hpp"
 #include "compare/ledger.hpp"
+#include "law/skalak.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 
@@ -15,7 +16,7 @@ const std::string header =
 RunResult result_with(double viscosity_ratio, double v_g) {
   RunResult result;
   result.input.physics.flow.viscosity_ratio = viscosity_ratio;
-  result.input.physics.membrane.law = LawName::skalak;
+  result.input.physics.membrane.law = skalak;
   result.input.name = "viscosity_ratio=" + std::to_string(static_cast<int>(viscosity_ratio));
   result.summary = Summary{"reached", "", "", {{"v_g", v_g}, {"volume_change", -2e-4}}, {{"v_g", 3e-5}}};
   return result;

@@ -1,4 +1,5 @@
 // What a row reports, on shapes and velocities for which it is known.
+#include "case/case.hpp"
 #include "observe/gauge.hpp"
 #include <array>
 #include <boost/test/unit_test.hpp>

@@ -1,6 +1,7 @@
 // Numbers behind keys, and their way from one value to another.
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
+#include "law/skalak.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -12,7 +13,7 @@ Case some_case() {
   Case input;
   input.capsule.radius = 0.8;
   input.membrane.bending_ratio = 1e-2;
-  input.membrane.dilatation = -0.25;
+  input.membrane.law = {skalak, {-0.25}};
   input.mesh.membrane = 48;
   return input;
 }
@@ -48,7 +49,7 @@ BOOST_AUTO_TEST_CASE(from_one_value_to_another) {
     }
     Case there = path.at(0.3);
     BOOST_TEST(there.capsule.radius == 0.8);
-    BOOST_TEST(there.membrane.dilatation == -0.25);
+    BOOST_TEST(there.membrane.law.values()[0] == -0.25);
   }
   BOOST_TEST(KeyPath("capsule.radius", input, 0.5).text(1) == "capsule.radius = 0.5");
 }

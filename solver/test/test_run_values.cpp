@@ -1,6 +1,7 @@
 // What names mean in a run: summary, series, profiles, keys; other runs and cases; errors carried through.
 #include "base/failure.hpp"
 #include "compare/run_values.hpp"
+#include "law/skalak.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 
@@ -16,7 +17,7 @@ struct Project : TemporaryDirectory {
     RunResult result;
     result.input.physics.flow.viscosity_ratio = viscosity_ratio;
     result.input.physics.capsule.radius = 0.9;
-    result.input.physics.membrane.law = LawName::skalak;
+    result.input.physics.membrane.law = skalak;
     result.directory = path;
     result.summary =
         Summary{"reached", "", "", {{"v_g", v_g}, {"roughness", 0.5}}, {{"v_g", 0.01}, {"v_g@x_g", 0.02}}};

@@ -2,6 +2,7 @@
 // the panel's length, and capsules up to R_eq = 1.3 that nearly plug the tube.
 #include "study.hpp"
 #include "integrals/layer_potential.hpp"
+#include "law/skalak.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -115,7 +116,7 @@ Case plug(double radius, double viscosity_ratio, int nodes) {
   physics.accuracy = 1e-3;
   physics.pore.exit_x = 8;
   physics.capsule.radius = radius;
-  physics.membrane.law = LawName::skalak;
+  physics.membrane.law = skalak;
   physics.flow.capillary_number = 0.05;
   physics.flow.viscosity_ratio = viscosity_ratio;
   physics.mesh.membrane = nodes;

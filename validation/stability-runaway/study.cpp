@@ -1,5 +1,6 @@
 // How fast does a capsule run away beyond its fold? Marches in an endless tube just below and just above the fold of a
 // neo-Hookean sphere, and through the paper's pore.
+#include "law/neo_hookean.hpp"
 #include "motion/motion.hpp"
 #include "steady/mesh_change.hpp"
 #include "steady/refinement.hpp"
@@ -34,7 +35,7 @@ Case sphere(double capillary_number) {
   physics.accuracy = 1e-5;
   physics.mesh.membrane = nodes;
   physics.capsule.radius = radius;
-  physics.membrane.law = LawName::neo_hookean;
+  physics.membrane.law = neo_hookean;
   physics.membrane.bending_ratio = bending_ratio;
   physics.flow.capillary_number = capillary_number;
   return physics;

@@ -3,6 +3,7 @@
 // says of a longer step; and how long the steps of the default are.
 #include "study.hpp"
 #include "base/failure.hpp"
+#include "law/skalak.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
 #include "motion/time_step.hpp"
@@ -235,7 +236,7 @@ std::vector<std::pair<double, double>> along_the_way(const std::string &director
 bool report_on_the_way() {
   Case physics = short_entrance(few, 0);
   physics.capsule.radius = 1;
-  physics.membrane.law = LawName::skalak;
+  physics.membrane.law = skalak;
   physics.membrane.bending_ratio = 1e-4;
   physics.flow.capillary_number = 0.1;
   physics.time.scheme = Scheme::euler;

@@ -1,6 +1,8 @@
 // Spheres in an unbounded uniaxial extension: deformation against capillary number for both laws, its slope from the
 // theory of small deformations, and where steady states end.
 #include "base/csv.hpp"
+#include "law/neo_hookean.hpp"
+#include "law/skalak.hpp"
 #include "steady/branch.hpp"
 #include "steady/mesh_change.hpp"
 #include "steady/steady_state.hpp"
@@ -22,16 +24,14 @@ constexpr double allowed_slope = 1e-6;          // relative, from the theory
 constexpr double allowed = 1e-6; // fold on two meshes, in the capillary number; growth rate there
 
 struct Sphere {
-  LawName law;
-  double dilatation, bending_ratio;
+  MembraneLaw law;
+  double bending_ratio;
   std::string name() const {
-    return law == LawName::neo_hookean ? "neo-hookean" : fmt::format("skalak C={}", dilatation);
+    return law.is(skalak) ? fmt::format("skalak C={}", law.values()[0]) : law.law().name;
   }
 };
-const std::vector<Sphere> spheres{{LawName::neo_hookean, 1, stiff},
-                                  {LawName::skalak, 0, stiff},
-                                  {LawName::skalak, 1, stiff},
-                                  {LawName::skalak, 10, stiff}};
+const std::vector<Sphere> spheres{
+    {neo_hookean, stiff}, {{skalak, {0}}, stiff}, {{skalak, {1}}, stiff}, {{skalak, {10}}, stiff}};
 
 Case case_of(const Sphere &sphere, double capillary_number) {
   Case physics;
@@ -39,7 +39,6 @@ Case case_of(const Sphere &sphere, double capillary_number) {
   physics.pore.shape = PoreShape::none;
   physics.capsule.radius = 1;
   physics.membrane.law = sphere.law;
-  physics.membrane.dilatation = sphere.dilatation;
   physics.membrane.bending_ratio = sphere.bending_ratio;
   physics.flow.type = FlowType::extension;
   physics.flow.capillary_number = capillary_number;
@@ -52,10 +51,10 @@ Case case_of(const Sphere &sphere, double capillary_number) {
 //   4 pi (delta/2) (6 + (6/5) nu) (a - b)^2 :
 // two linear equations for a and b, and D = (3/4) a.
 double theory(const Sphere &sphere) {
-  const double c = sphere.dilatation;
-  const bool neo_hookean = sphere.law == LawName::neo_hookean;
-  const double nu = neo_hookean ? 0.5 : c / (1 + c);
-  const double modulus = neo_hookean ? 3 : 2 * (1 + 2 * c) / (1 + c);
+  const bool rubber = sphere.law.is(neo_hookean);
+  const double c = rubber ? 0 : sphere.law.values()[0];
+  const double nu = rubber ? 0.5 : c / (1 + c);
+  const double modulus = rubber ? 3 : 2 * (1 + 2 * c) / (1 + c);
   const double area = 0.8 * modulus / (2 * (1 - nu)), shear = 2.4 * modulus / (1 + nu);
   const double bending = sphere.bending_ratio * (6 + 1.2 * nu);
   Eigen::Matrix2d stiffness{{area + bending, -3 * area - bending},
@@ -104,7 +103,7 @@ std::string branch_rows(const Sphere &sphere) {
 // The fold of a neo-Hookean sphere on a mesh.
 SteadyPoint fold_on(int nodes, double bending_ratio) {
   constexpr double near = 0.4;
-  const Case physics = case_of({LawName::neo_hookean, 1, bending_ratio}, near);
+  const Case physics = case_of({neo_hookean, bending_ratio}, near);
   const FoldSearch search =
       find_fold(physics, on_mesh(physics, nodes, find_steady(physics, {}, {})), flow_key, strongest, 0.1);
   if (!search.fold)
@@ -142,7 +141,7 @@ bool study(const std::string &directory, unsigned jobs) {
       if (!end.empty())
         fmt::print("{}: {} at Ca = {}, D = {}, stretch {}\n", sphere.name(), end, cells[1], cells[2],
                    cells[4]);
-      if (sphere.law == LawName::skalak) {
+      if (sphere.law.is(skalak)) {
         skalak_goes_on = skalak_goes_on && (end.empty() || end == "reached");
         skalak_growth = std::max(skalak_growth, std::stod(cells[5]));
       }

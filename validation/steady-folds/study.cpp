@@ -2,6 +2,8 @@
 // stiffness on two meshes; the same search for Skalak's law.
 #include "base/csv.hpp"
 #include "base/failure.hpp"
+#include "law/neo_hookean.hpp"
+#include "law/skalak.hpp"
 #include "steady/mesh_change.hpp"
 #include "steady/steady_state.hpp"
 #include "steady_folds.hpp"
@@ -30,11 +32,10 @@ std::vector<Curve> curves() {
           {"flat", 0.5, 1e-3, {0.7, 0.8, 0.9, 1}}};
 }
 
-Case case_of(LawName law, double dilatation, double radius, double aspect_ratio, double bending_ratio) {
+Case case_of(const MembraneLaw &law, double radius, double aspect_ratio, double bending_ratio) {
   Case physics;
   physics.accuracy = 1e-6;
   physics.membrane.law = law;
-  physics.membrane.dilatation = dilatation;
   physics.membrane.bending_ratio = bending_ratio;
   physics.capsule.radius = radius;
   physics.capsule.aspect_ratio = aspect_ratio;
@@ -44,7 +45,7 @@ Case case_of(LawName law, double dilatation, double radius, double aspect_ratio,
 
 // A row: where the fold is on both meshes, and what the capsule looks like there.
 std::string neo_hookean_fold(const Curve &curve, double radius) {
-  const Case physics = case_of(LawName::neo_hookean, 1, radius, curve.aspect_ratio, curve.bending_ratio);
+  const Case physics = case_of(neo_hookean, radius, curve.aspect_ratio, curve.bending_ratio);
   const FoldSearch search = find_fold(physics, on_mesh(physics, coarse, find_steady(physics, {}, {})),
                                       flow_key, highest_flow, 0.15);
   if (!search.fold)
@@ -62,7 +63,7 @@ std::string neo_hookean_fold(const Curve &curve, double radius) {
 std::string skalak_branch(double dilatation, double radius) {
   constexpr double bending_ratio = 1e-2;
   constexpr int first = 64, finest = 240;
-  Case physics = case_of(LawName::skalak, dilatation, radius, 1, bending_ratio);
+  Case physics = case_of({skalak, {dilatation}}, radius, 1, bending_ratio);
   SteadyState state = on_mesh(physics, first, find_steady(physics, {}, {}));
   for (;;) {
     const FoldSearch search = find_fold(physics, state, flow_key, highest_flow, 0.25);

@@ -2,12 +2,15 @@
 // from point to neighbouring point.
 #include "study.hpp"
 #include "base/failure.hpp"
+#include "law/neo_hookean.hpp"
+#include "law/skalak.hpp"
 #include "steady/growth_rates.hpp"
 #include "steady/mesh_change.hpp"
 #include "steady/newton.hpp"
 #include "steady/refinement.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -22,12 +25,7 @@ constexpr int nodes = 72;
 constexpr double bending_ratio = 1e-2; // softer shells buckle in the weakest flows
 constexpr double allowed = 1e-4;       // relative, of the pressure drop against another mesh
 
-struct Law {
-  const char *name;
-  LawName law;
-  double dilatation;
-};
-constexpr Law laws[] = {{"neo-hookean", LawName::neo_hookean, 1}, {"skalak", LawName::skalak, 0}};
+const std::array<MembraneLaw, 2> mapped_laws{MembraneLaw(neo_hookean), MembraneLaw(skalak, {0})};
 
 double radius_of(int row) {
   return 0.65 + 0.05 * row;
@@ -36,11 +34,10 @@ double capillary_number_of(int column) {
   return 0.01 * std::pow(20.0, column / (columns - 1.0)); // 0.01 to 0.2
 }
 
-Case case_at(const Law &law, int row, int column) {
+Case case_at(const MembraneLaw &law, int row, int column) {
   Case physics;
   physics.accuracy = 1e-4;
-  physics.membrane.law = law.law;
-  physics.membrane.dilatation = law.dilatation;
+  physics.membrane.law = law;
   physics.membrane.bending_ratio = bending_ratio;
   physics.capsule.radius = radius_of(row);
   physics.flow.capillary_number = capillary_number_of(column);
@@ -83,7 +80,7 @@ bool begin_again(const Case &physics, SteadyState &state) {
 
 // One size: lines of the map from the middle capillary number upwards and downwards, as far as there are stable steady
 // states. The last line, "end,...", compares the middle point with another mesh.
-std::string row_of_map(const Law &law, int row) {
+std::string row_of_map(const MembraneLaw &law, int row) {
   constexpr int middle = columns / 3;
   const Case start = case_at(law, row, middle);
   const SteadyState middle_state = on_mesh(start, nodes, find_steady(start, {}, {}));
@@ -93,7 +90,7 @@ std::string row_of_map(const Law &law, int row) {
     state.system->set_parameters(now);
     const SteadyRecord record = record_steady(state, 1);
     lines[column] =
-        fmt::format("{},{:.3g},{:.6f},{:.7f},{:.7f},{:.7f},{:.6f},{:.5f}\n", law.name, radius_of(row),
+        fmt::format("{},{:.3g},{:.6f},{:.7f},{:.7f},{:.7f},{:.6f},{:.5f}\n", law.law().name, radius_of(row),
                     now.flow.capillary_number, record.row.pressure_drop, record.row.v_g, record.row.min_film,
                     record.row.max_stretch, record.rates.at("growth_rate"));
     return record.row.pressure_drop;
@@ -112,7 +109,7 @@ std::string row_of_map(const Law &law, int row) {
   std::string text;
   for (int column = 0; column < columns; ++column) // gnuplot draws grids: each row as long as the others
     text += lines.contains(column) ? lines[column]
-                                   : fmt::format("{},{:.3g},{:.6f},NaN,NaN,NaN,NaN,NaN\n", law.name,
+                                   : fmt::format("{},{:.3g},{:.6f},NaN,NaN,NaN,NaN,NaN\n", law.law().name,
                                                  radius_of(row), capillary_number_of(column));
   return text +
          fmt::format("end,{},{:.3e},{:.2f}\n", lines.size(), std::abs(finer / pressure - 1), cpu_seconds());
@@ -120,15 +117,16 @@ std::string row_of_map(const Law &law, int row) {
 
 bool study(const std::string &directory, unsigned jobs) {
   std::vector<TextTask> tasks;
-  for (const Law &law : laws)
+  for (const MembraneLaw &law : mapped_laws)
     for (int row = 0; row < rows; ++row)
-      tasks.push_back({fmt::format("{} {}", law.name, row), [&law, row] { return row_of_map(law, row); }});
+      tasks.push_back(
+          {fmt::format("{} {}", law.law().name, row), [&law, row] { return row_of_map(law, row); }});
   const std::vector<std::string> texts = make_all(directory, jobs, tasks);
 
   const std::string head = "law,radius,capillary_number,pressure_drop,v_g,min_film,max_stretch,growth_rate";
   int points = 0, looked_at = 0;
   double worst = 0, seconds = 0;
-  for (const Law &law : laws) {
+  for (const MembraneLaw &law : mapped_laws) {
     std::string file = head + "\n";
     for (int row = 0; row < rows; ++row) {
       const std::string &text = texts[static_cast<std::size_t>(looked_at++)];
@@ -144,9 +142,9 @@ bool study(const std::string &directory, unsigned jobs) {
       worst = std::max(worst, difference);
       seconds += spent;
       if (found < columns)
-        fmt::print("{} R = {:.2f}: {} of {} points\n", law.name, radius_of(row), found, columns);
+        fmt::print("{} R = {:.2f}: {} of {} points\n", law.law().name, radius_of(row), found, columns);
     }
-    write_atomically(directory + "/" + law.name + ".csv", file);
+    write_atomically(directory + "/" + law.law().name + ".csv", file);
   }
   Table summary("points,without,pressure_drop_apart,cpu_seconds");
   summary.add(fmt::format("{},{},{:.3e},{:.1f}", points, 2 * rows * columns - points, worst, seconds));
