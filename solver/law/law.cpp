@@ -1,4 +1,5 @@
 #include "law/law.hpp"
+#include "law/mooney_rivlin.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
 #include <algorithm>
@@ -10,6 +11,7 @@ std::span<const Law *const> laws() {
   static constexpr std::array table{
       &neo_hookean,
       &skalak,
+      &mooney_rivlin,
   };
   return table;
 }

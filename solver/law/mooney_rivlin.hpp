@@ -1,0 +1,9 @@
+#pragma once
+// The Mooney-Rivlin law: an incompressible rubber that hardens as the neo-Hookean one, Psi = 1, does not.
+#include "law/law.hpp"
+
+namespace capsule {
+
+extern const Law mooney_rivlin;
+
+} // namespace capsule
