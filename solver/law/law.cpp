@@ -1,4 +1,5 @@
 #include "law/law.hpp"
+#include "law/generalised_hooke.hpp"
 #include "law/mooney_rivlin.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
@@ -12,6 +13,7 @@ std::span<const Law *const> laws() {
       &neo_hookean,
       &skalak,
       &mooney_rivlin,
+      &generalised_hooke,
   };
   return table;
 }

@@ -1,0 +1,9 @@
+#pragma once
+// The generalised law of Hooke: linear in the Green strains (a^2 - 1)/2 and (b^2 - 1)/2.
+#include "law/law.hpp"
+
+namespace capsule {
+
+extern const Law generalised_hooke;
+
+} // namespace capsule
