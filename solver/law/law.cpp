@@ -1,4 +1,5 @@
 #include "law/law.hpp"
+#include "law/evans_skalak.hpp"
 #include "law/generalised_hooke.hpp"
 #include "law/mooney_rivlin.hpp"
 #include "law/neo_hookean.hpp"
@@ -10,10 +11,7 @@ namespace capsule {
 
 std::span<const Law *const> laws() {
   static constexpr std::array table{
-      &neo_hookean,
-      &skalak,
-      &mooney_rivlin,
-      &generalised_hooke,
+      &neo_hookean, &skalak, &mooney_rivlin, &generalised_hooke, &evans_skalak,
   };
   return table;
 }
