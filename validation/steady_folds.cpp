@@ -71,7 +71,7 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
 }
 
 Fold fold_on_mesh(const Case &physics, const std::string &key, double to, const Fold &fold, int nodes) {
-  const Case before = KeyPath(key, physics, fold.value_before).at(1);
+  const Case before = with_number(physics, key, fold.value_before);
   const SteadyState state = on_mesh(before, nodes, fold.before);
   constexpr double short_step = 0.03;
   const FoldSearch search = find_fold(before, state, key, to, short_step);

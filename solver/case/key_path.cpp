@@ -8,6 +8,8 @@
 namespace capsule {
 namespace {
 
+constexpr double power = 8;
+
 const Member<double> &real_member(const std::string &key) {
   return std::get<Member<double>>(find_key(key)->field);
 }
@@ -24,23 +26,36 @@ std::optional<double> number(const Key &key, const Case &input) {
   return real != nullptr ? std::optional(*real) : std::nullopt;
 }
 
+double number(const std::string &key, const Case &input) {
+  return real_member(key).of(input);
+}
+
+Case with_number(Case input, const std::string &key, double value) {
+  real_member(key).in(input) = value;
+  return input;
+}
+
 KeyPath::KeyPath(std::string key, const Case &from, double to)
-    : key_(std::move(key)), start_(from), from_(real_member(key_).of(from)), to_(to) {}
+    : key_(std::move(key)), start_(from), from_(number(key_, from)), to_(to) {}
+
+double KeyPath::root(double part) const {
+  return std::max((1 - part) * std::pow(from_, 1 / power) + part * std::pow(to_, 1 / power), 0.0);
+}
 
 double KeyPath::value(double part) const {
   if (part == 0 || part == 1)
     return part == 0 ? from_ : to_;
-  if (from_ < 0 || to_ < 0)
-    return from_ + part * (to_ - from_);
-  constexpr double power = 8;
-  const double root = (1 - part) * std::pow(from_, 1 / power) + part * std::pow(to_, 1 / power);
-  return std::pow(std::max(root, 0.0), power);
+  return is_straight() ? from_ + part * (to_ - from_) : std::pow(root(part), power);
+}
+
+double KeyPath::slope(double part) const {
+  return is_straight() ? to_ - from_
+                       : power * std::pow(root(part), power - 1) *
+                             (std::pow(to_, 1 / power) - std::pow(from_, 1 / power));
 }
 
 Case KeyPath::at(double part) const {
-  Case input = start_;
-  real_member(key_).in(input) = value(part);
-  return input;
+  return with_number(start_, key_, value(part));
 }
 
 std::string KeyPath::text(double part) const {

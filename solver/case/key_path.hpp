@@ -1,5 +1,6 @@
 #pragma once
-// The number behind a key of a case, and the way of a key from one number to another.
+// The number behind a key of a case, and the way of a key from one number to another. A key that is given by its name
+// has a real number for its value.
 #include "case/case.hpp"
 #include <optional>
 #include <string>
@@ -11,18 +12,27 @@ struct Key;
 // The value of a key; none if it is not a number, or not given.
 std::optional<double> number(const Key &key, const Case &input);
 
-// A real key of a case on its way from the value that it has there, at part 0, to another one, at part 1; further, too.
+double number(const std::string &key, const Case &input);
+// The case with another number behind a key, whatever its range.
+Case with_number(Case input, const std::string &key, double value);
+
+// A key of a case on its way from the value that it has there, at part 0, to another one, at part 1; further, too.
 // Between positive values the eighth root changes evenly, which suits values of any magnitude, and zero: a way from
 // 1e-2 to 1e-5, or to 0, has no part that needs much shorter steps than the others.
 class KeyPath {
 public:
   KeyPath(std::string key, const Case &from, double to);
+  const std::string &key() const { return key_; }
   bool needed() const { return from_ != to_; }
   double value(double part) const;
+  double slope(double part) const; // d value/d part
   Case at(double part) const;
   std::string text(double part) const; // "flow.capillary_number = 0.05"
 
 private:
+  bool is_straight() const { return from_ < 0 || to_ < 0; }
+  double root(double part) const;
+
   std::string key_;
   Case start_;
   double from_, to_;

@@ -1,9 +1,10 @@
 #pragma once
 // The branch of a case's steady states along one of its keys, through folds.
-#include "case/case.hpp"
 #include "observe/outcome.hpp"
 
 namespace capsule {
+
+struct Case;
 
 // From the case's own value of the key to `to`, by way of folds if need be. The outcome's branch holds the
 // points, its folds the turning points (slope zero to rounding error of the parameter), its series and

@@ -161,7 +161,7 @@ LinearMotion linear_motion(const Interaction &interaction, const Membrane &membr
   const Matrix change = carried_load_change(at_nodes, nodal_change, load);
   const Matrix jump = slip(at_nodes);
 
-  const NodalLayers layers = nodal_layers(interaction);
+  NodalLayers layers = nodal_layers(interaction);
   const Vector shear = inner_shear(layers, at_nodes, nodal_area(membrane, position), velocity);
   Matrix equal_viscosities =
       layers.single * change - 0.5 * jump - layers.dbl * jump +
@@ -170,7 +170,7 @@ LinearMotion linear_motion(const Interaction &interaction, const Membrane &membr
           (8 * std::numbers::pi) -
       interaction.double_from_panels() * beyond_nodes(at_panels, slip(at_panels), jump) +
       advance_of_inner_flow(at_nodes, shear, velocity);
-  return {std::move(equal_viscosities), layers.dbl};
+  return {std::move(equal_viscosities), std::move(layers.single), std::move(layers.dbl)};
 }
 
 } // namespace capsule

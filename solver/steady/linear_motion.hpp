@@ -19,6 +19,7 @@ namespace capsule {
 
 struct LinearMotion {
   Matrix equal_viscosities; // dv/d(position) for lambda = 1, 2N x 2N
+  Matrix single_layer;      // S/(8 pi)
   Matrix double_layer;      // D
 };
 

@@ -95,7 +95,7 @@ SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
   SteadyRecord record = measure(state);
   const std::complex<double> slowest = growth_rates(system, state.unknowns, viscosity_ratio)[0];
   record.rates = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
-  if (system.scene().flow.type == FlowType::pore)
+  if (system.input().flow.type == FlowType::pore)
     record.rates["growth_per_length"] = slowest.real() / record.row.v_g;
   return record;
 }

@@ -16,16 +16,6 @@ constexpr double wall_beyond = 4.7;
 constexpr Advice advice{.at_the_wall = "try a larger flow.capillary_number",
                         .at_the_end = "try a smaller flow.capillary_number"};
 
-// The wall and everything about the flow that no parameter changes. epsilon and lambda are one.
-Case scene_of(const Case &physics) {
-  Case scene = physics;
-  if (scene.pore.shape == PoreShape::hyperbolic)
-    scene.pore.shape = PoreShape::tube;
-  scene.flow.capillary_number = 1;
-  scene.flow.viscosity_ratio = 1;
-  return scene;
-}
-
 // Half the length of the tube for a capsule whose tips are as far from its centre: with room to grow.
 double tube_for(double tip) {
   return 1.25 * tip + wall_beyond;
@@ -33,38 +23,35 @@ double tube_for(double tip) {
 
 } // namespace
 
-SteadySystem::SteadySystem(const Case &physics, const Resolution &resolution, const Vector &node_angle)
-    : scene_(scene_of(physics)), resolution_(resolution),
-      membrane_(standard_membrane(physics.capsule, physics.membrane, resolution)) {
+SteadySystem::SteadySystem(const Case &input, const Resolution &resolution, const Vector &node_angle)
+    : resolution_(resolution), membrane_(standard_membrane(input.capsule, input.membrane, resolution)) {
   membrane_.node_angle = node_angle;
-  set_parameters(physics);
+  set_parameters(input);
   half_length_ = tube_for(membrane_.reference.head(nodes()).cwiseAbs().maxCoeff());
   build_flow();
 }
 
 void SteadySystem::build_flow() {
-  scene_.pore.exit_x = half_length_;
-  scene_.pore.entrance_distance = half_length_;
   resolution_.flow.fine_half_length = half_length_ - wall_beyond;
-  pore_ = make_pore(scene_.pore);
-  flow_ = make_flow(pore_, scene_.flow, membrane_.basis, resolution_.flow);
+  if (input_.pore.shape != PoreShape::none)
+    pore_ = make_pore({.shape = PoreShape::tube, .exit_x = half_length_, .entrance_distance = half_length_});
+  flow_ =
+      make_flow(pore_, {.type = input_.flow.type, .capillary_number = 1}, membrane_.basis, resolution_.flow);
 }
 
-void SteadySystem::set_parameters(const Case &physics) {
-  set_material(physics.capsule, physics.membrane, membrane_);
+void SteadySystem::set_parameters(const Case &input) {
+  input_ = input;
+  set_material(input.capsule, input.membrane, membrane_);
   centre_weights_ = nodal_area(membrane_, membrane_.reference);
   centre_weights_ /= centre_weights_.sum();
-  scene_.capsule = physics.capsule;
-  scene_.membrane = physics.membrane;
-  capillary_number_ = physics.flow.capillary_number;
-  volume_ = 4 * pi / 3 * std::pow(physics.capsule.radius, 3);
+  volume_ = 4 * pi / 3 * std::pow(input.capsule.radius, 3);
 }
 
 Vector SteadySystem::undeformed() const {
   Vector unknowns = Vector::Zero(2 * nodes() + 2);
   unknowns.head(2 * nodes()) = membrane_.reference;
-  if (scene_.pore.shape != PoreShape::none)
-    unknowns[2 * nodes()] = 2 - 4.0 / 3 * std::pow(std::min(scene_.capsule.radius, 0.8), 2);
+  if (pore_)
+    unknowns[2 * nodes()] = 2 - 4.0 / 3 * std::pow(std::min(input_.capsule.radius, 0.8), 2);
   return unknowns;
 }
 
@@ -74,7 +61,7 @@ double SteadySystem::largest_stretch(const Vector &unknowns) const {
 }
 
 void SteadySystem::fit_tube(const Vector &unknowns) {
-  if (scene_.pore.shape == PoreShape::none)
+  if (!pore_)
     return;
   const double tip = unknowns.head(nodes()).cwiseAbs().maxCoeff();
   if (tip + wall_beyond < half_length_)
@@ -84,18 +71,38 @@ void SteadySystem::fit_tube(const Vector &unknowns) {
 }
 
 double SteadySystem::admissible_step(const Vector &unknowns, const Vector &change) const {
-  constexpr double keep = 0.3; // of the distance to the wall and to the axis
+  constexpr double keep = 0.3; // share of the distance
   const Eigen::Index n = nodes();
-  const bool wall = scene_.pore.shape != PoreShape::none;
   double step = 1;
   for (Eigen::Index k = n; k < 2 * n; ++k) {
     const double r = unknowns[k];
     if (change[k] < 0)
       step = std::min(step, (1 - keep) * r / -change[k]);
-    else if (wall)
+    else if (pore_)
       step = std::min(step, (1 - keep) * (1 - r) / change[k]);
   }
   return step;
+}
+
+Vector SteadySystem::load(const Vector &position) const {
+  return membrane_load(membrane_, position) / input_.flow.capillary_number;
+}
+
+Vector SteadySystem::load_and_constraints(const Vector &unknowns) const {
+  const Vector position = unknowns.head(2 * nodes());
+  Vector part(2 * nodes() + 2);
+  part << load(position), constraints(position);
+  return part;
+}
+
+// Centre and volume, less what they should be.
+Eigen::Vector2d SteadySystem::constraints(const Vector &position) const {
+  const Eigen::Index n = nodes();
+  const auto weights = membrane_.basis.weights.array();
+  const auto r = position.tail(n).array();
+  const Vector x_zeta = membrane_.at_nodes.even[1] * position.head(n);
+  return {centre_weights_.dot(position.head(n)),
+          pi * (weights * r.square() * x_zeta.array()).sum() - volume_};
 }
 
 // Rows: centre and volume; columns: nodal positions.
@@ -116,8 +123,6 @@ Eigen::Matrix<double, 2, Eigen::Dynamic> SteadySystem::constraint_slopes(const V
 Vector SteadySystem::equations(const Vector &unknowns, const Vector &velocity) const {
   const Eigen::Index n = nodes();
   const Vector position = unknowns.head(2 * n);
-  const auto weights = membrane_.basis.weights.array();
-  const auto r = position.tail(n).array();
   const Vector x_zeta = membrane_.at_nodes.even[1] * position.head(n);
   const Vector r_zeta = membrane_.at_nodes.odd[1] * position.tail(n);
   const Eigen::ArrayXd arc = (x_zeta.array().square() + r_zeta.array().square()).sqrt();
@@ -126,8 +131,7 @@ Vector SteadySystem::equations(const Vector &unknowns, const Vector &velocity) c
   rows.head(n).array() -= unknowns[2 * n];
   rows.head(n).array() -= unknowns[2 * n + 1] * r_zeta.array() / arc;
   rows.segment(n, n).array() += unknowns[2 * n + 1] * x_zeta.array() / arc;
-  rows[2 * n] = centre_weights_.dot(position.head(n));
-  rows[2 * n + 1] = pi * (weights * r.square() * x_zeta.array()).sum() - volume_;
+  rows.tail(2) = constraints(position);
   return rows;
 }
 
@@ -135,8 +139,7 @@ Vector SteadySystem::residual(const Vector &unknowns) const {
   const Vector position = unknowns.head(2 * nodes());
   require_capsule(pore_, position, advice);
   Recycled unused;
-  const Vector load = membrane_load(membrane_, position) / capillary_number_;
-  return equations(unknowns, flow_->solve(flow_->interact(position), load, unused).velocity);
+  return equations(unknowns, flow_->solve(flow_->interact(position), load(position), unused).velocity);
 }
 
 SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) const {
@@ -145,11 +148,12 @@ SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) cons
   require_capsule(pore_, position, advice);
   Recycled unused;
   const Interaction interaction = flow_->interact(position, Layers::both);
-  const Vector load = membrane_load(membrane_, position) / capillary_number_;
-  const Vector velocity = flow_->solve(interaction, load, unused).velocity;
-  LinearMotion motion = linear_motion(interaction, membrane_, position, velocity, capillary_number_);
+  const Vector velocity = flow_->solve(interaction, load(position), unused).velocity;
+  LinearMotion motion =
+      linear_motion(interaction, membrane_, position, velocity, input_.flow.capillary_number);
   Linearisation result;
   result.residual = equations(unknowns, velocity);
+  result.single_layer = std::move(motion.single_layer);
   result.double_layer = std::move(motion.double_layer);
   Matrix &jacobian = result.jacobian;
   jacobian = Matrix::Zero(2 * n + 2, 2 * n + 2);
@@ -167,9 +171,9 @@ SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) cons
 FlowState SteadySystem::flow(const Vector &position) const {
   Recycled unused;
   const Interaction interaction = flow_->interact(position);
-  const Vector load = membrane_load(membrane_, position) / capillary_number_;
-  FlowState state = flow_->solve(interaction, load, unused);
-  state.pressure_drop_reciprocal = flow_->reciprocal_pressure_drop(interaction, load, state, unused);
+  const Vector nodal_load = load(position);
+  FlowState state = flow_->solve(interaction, nodal_load, unused);
+  state.pressure_drop_reciprocal = flow_->reciprocal_pressure_drop(interaction, nodal_load, state, unused);
   return state;
 }
 

@@ -4,10 +4,10 @@
 //   unknowns   2N + 2: the nodes' axial and radial positions, V, and a slack
 //   equations  v_x - V + slack n_x = 0, v_r + slack n_r = 0 at the nodes; centre of the undeformed area
 //   at x = 0, the same on any mesh; volume = undeformed
-// The flux of v - V through the membrane vanishes identically: one equation of the nodes follows from the
-// others, and the slack, which comes out as the error of discretisation, makes up for it. A hyperbolic pore is
-// replaced by its tube, infinitely long in effect: the disturbance falls by exp(-4.47) per radius of the tube
-// and only as much wall is built as is left of it.
+// The flux of v - V through the membrane vanishes identically, so that one equation of the nodes follows from the
+// others. The slack makes up for it; its value is the error of discretisation. A hyperbolic pore is replaced by its
+// tube, which is infinitely long in effect: the disturbance falls by exp(-4.47) per radius of the tube, and the wall is
+// built as far as there is any.
 // Throws NumericsFailure for shapes that are no capsule in the tube.
 #include "case/case.hpp"
 #include "scene/scene.hpp"
@@ -18,44 +18,47 @@ namespace capsule {
 
 class SteadySystem {
 public:
-  // What stays fixed: the scene and the mesh, with a node at each of these angles (node_density.hpp).
-  SteadySystem(const Case &physics, const Resolution &resolution, const Vector &node_angle);
+  // What stays fixed: pore, type of flow, and the mesh, with a node at each of these angles (node_density.hpp).
+  SteadySystem(const Case &input, const Resolution &resolution, const Vector &node_angle);
 
-  // Everything else that the equations hold: capsule, membrane, capillary number.
-  void set_parameters(const Case &physics);
+  // Everything else in the equations: capsule, membrane, capillary number.
+  void set_parameters(const Case &input);
+  const Case &input() const { return input_; }
 
   Eigen::Index nodes() const { return membrane_.basis.size(); }
-  Vector undeformed() const; // unknowns
+  Vector undeformed() const; // unknowns of the undeformed capsule, at about the speed of a rigid sphere
   const Membrane &membrane() const { return membrane_; }
-  double largest_stretch(const Vector &unknowns) const; // meridional, at the nodes
-  const Case &scene() const { return scene_; }          // with the tube that stands for the pore
-  const std::optional<Pore> &pore() const { return pore_; }
+  double largest_stretch(const Vector &unknowns) const;     // meridional, at the nodes
+  const std::optional<Pore> &pore() const { return pore_; } // the tube that stands for it
 
   // Builds a longer tube if the membrane has come too near to its ends.
   void fit_tube(const Vector &unknowns);
-  // Where the straight way from one shape towards another leaves the tube: the largest step, up to 1, that
-  // keeps a part of the film.
+  // The largest part of a change, up to 1, that leaves to each node a share of its distance to the wall and to the axis.
   double admissible_step(const Vector &unknowns, const Vector &change) const;
 
   Vector residual(const Vector &unknowns) const;
   struct Linearisation {
     Vector residual;
-    Matrix jacobian;     // 2N + 2 square
-    Matrix double_layer; // of linear_motion.hpp
+    Matrix jacobian;                   // 2N + 2 square
+    Matrix single_layer, double_layer; // of linear_motion.hpp
   };
   Linearisation linearise(const Vector &unknowns) const;
+  // The part of the equations that depends on the parameters where the shape does not change: the nodal load
+  // f = q/epsilon (2N), on which the velocity depends linearly, and the left sides of the two constraints.
+  Vector load_and_constraints(const Vector &unknowns) const;
 
   FlowState flow(const Vector &position) const; // with both pressure drops
 
 private:
   void build_flow();
   Vector equations(const Vector &unknowns, const Vector &velocity) const;
+  Eigen::Vector2d constraints(const Vector &position) const;
   Eigen::Matrix<double, 2, Eigen::Dynamic> constraint_slopes(const Vector &position) const;
+  Vector load(const Vector &position) const;
 
-  Case scene_;
+  Case input_;
   std::optional<Pore> pore_;
   Resolution resolution_;
-  double capillary_number_ = 0;
   double volume_ = 0;
   Vector centre_weights_;  // nodal areas as parts of the undeformed area
   double half_length_ = 0; // of the tube

@@ -65,4 +65,15 @@ BOOST_AUTO_TEST_CASE(steps_suit_any_magnitude) {
   BOOST_TEST(std::abs(through_zero.value(2) - 2.25) < 1e-15);
 }
 
+BOOST_AUTO_TEST_CASE(slope_is_the_derivative_of_the_value) {
+  const Case input = some_case();
+  constexpr double h = 1e-4;
+  for (const KeyPath &path : {KeyPath("membrane.bending_ratio", input, 1e-5),
+                              KeyPath("membrane.dilatation", input, 1), KeyPath("capsule.radius", input, 1)})
+    for (const double part : {0.0, 0.4, 1.0}) {
+      const double difference = (path.value(part + h) - path.value(part - h)) / (2 * h);
+      BOOST_TEST(std::abs(path.slope(part) - difference) < 1e-5 * std::abs(difference));
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
