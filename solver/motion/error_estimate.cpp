@@ -114,6 +114,7 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
     add("x_g_at_peak", std::max(std::abs(peak->x_g - coarse_peak->x_g), shift_of_peak(pairs, *peak)));
   for (auto &[quantity, difference] : error)
     difference *= safety_of(quantity, scheme);
+  error["volume_change"] = std::abs(fine.back().volume_change); // exactly none
   return error;
 }
 

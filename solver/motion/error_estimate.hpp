@@ -1,7 +1,7 @@
 #pragma once
 // Bounds of a march's errors from its differences to a slightly coarser one (motion; what was weighed:
 // paper-notes/methods.md).
-#include "case/case.hpp"
+#include "case/parameters.hpp"
 #include "observe/records.hpp"
 #include <map>
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace capsule {
 
-// Of what summary.json reports: largest differences, times a margin, over the rows at the same x_g, as "v_g@x_g", or at
-// the same time, as "v_g@time", and, as the plain name, over the last part of the way. A single row may agree by
-// accident. Neither series may be empty.
+// Of what summary.json reports, by name: the largest difference times a margin over all rows at the same x_g, "v_g@x_g",
+// or at the same time, "v_g@time", and over the last part of the way, "v_g"; a single row may agree by accident. Neither
+// series may be empty.
 std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine,
                                               const std::vector<SeriesRow> &coarse, bool by_x_g,
                                               Scheme scheme);

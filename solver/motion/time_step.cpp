@@ -21,9 +21,8 @@ void check(int flag, const char *what) {
                           "try a larger time.tolerance or a finer mesh.membrane");
 }
 
-// Newton's iteration may err by this share of the step's tolerance. What it leaves behind is in the shortest
-// waves, where the load is stiffest: with CVODE's own 0.1 it is the noise that the error test answers with
-// short steps, and that seeds buckles.
+// Error that Newton's iteration may leave, as a share of the step's tolerance. It lies in the shortest waves, where the
+// load is stiffest: with CVODE's default of 0.1 it makes the steps short and starts buckles.
 constexpr double newton_share = 0.01;
 
 using Factors = Eigen::PartialPivLU<Matrix>;

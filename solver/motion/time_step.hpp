@@ -6,7 +6,7 @@
 //   4. Both are stable while step * rate stays below stability_limit for every rate of decay.
 // All offer step(), time(), previous_time() and state_at(time within the last step).
 #include "base/linear_algebra.hpp"
-#include "case/case.hpp"
+#include "case/parameters.hpp"
 #include <functional>
 #include <memory>
 

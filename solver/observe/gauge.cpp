@@ -10,8 +10,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The poles are approached to this distance in zeta: ratios such as r/R are 0/0 at a pole, and even fields
-// differ from their limit by its square.
+// Distance in zeta of the first and the last point from the poles, where ratios such as r/R are 0/0. Even fields differ
+// from their limits there by its square.
 constexpr double pole_gap = 1e-5;
 
 Sampling integration_points(const MeridianBasis &basis) {
@@ -51,7 +51,7 @@ double refined_maximum(const Vector &f) {
   return std::max(best, best + t * (d1 + t * (d2 / 2 + t * (d3 / 6 + t * d4 / 24))));
 }
 
-// Stretches of negative kappa_s whose integral over the arc passes dent_angle.
+// The number of stretches of negative kappa_s whose integral over the arc is more than dent_angle.
 int count_dents(const MembraneState &state, double step) {
   int dents = 0;
   double turned_back = 0;
@@ -130,8 +130,8 @@ double Gauge::film(const Vector &position) const {
     return std::numeric_limits<double>::infinity();
   const Trace curve = trace(fine_, position);
   const Vector &x = curve.x, &r = curve.r;
-  // From one point to the next the distance cannot fall by more than the way between them: points that are
-  // surely farther than the nearest one are passed over.
+  // From one point to the next the distance to the wall falls by no more than the points are apart: those that are surely
+  // farther than the nearest one are skipped.
   Vector distance(x.size());
   double nearest = std::numeric_limits<double>::infinity();
   Eigen::Index last = 0;
@@ -162,7 +162,7 @@ bool Gauge::crosses_itself(const Vector &position) const {
   const auto side = [&](Eigen::Index a, Eigen::Index b, Eigen::Index c) {
     return (x[b] - x[a]) * (r[c] - r[a]) - (r[b] - r[a]) * (x[c] - x[a]);
   };
-  // Runs of segments whose boxes are apart have nothing in common.
+  // Runs of segments do not cross if their bounding boxes do not overlap.
   constexpr Eigen::Index run = 8;
   const Eigen::Index runs = (x.size() - 1 + run - 1) / run;
   Matrix box(4, runs);

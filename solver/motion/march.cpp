@@ -1,0 +1,251 @@
+#include "motion/march.hpp"
+#include "base/failure.hpp"
+#include "case/case.hpp"
+#include "motion/dynamics.hpp"
+#include "motion/stations.hpp"
+#include "motion/time_step.hpp"
+#include "observe/gauge.hpp"
+#include "scene/resolution.hpp"
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <optional>
+
+namespace capsule {
+namespace {
+
+constexpr int rows_in_time = 200; // of a march that ends at a time
+constexpr int steps_between_checkpoints = 250;
+constexpr int explicit_steps_between_checkpoints = 1000;
+constexpr double shortest_leg = 1e-4; // a march that gains less time than this in one leg is given up
+
+// Integrates, records what is due, and stops.
+class March {
+public:
+  March(const Case &input, const Checkpoint &from, const Control &control, Role role, double roughness_limit)
+      : input_(input), control_(control), role_(role),
+        roughness_limit_(role == Role::main ? roughness_limit : std::numeric_limits<double>::infinity()),
+        dynamics_(make_dynamics(input)), gauge_(dynamics_.scene->pore, dynamics_.scene->membrane),
+        record_(from) {
+    const Vector &start = started() ? record_.position : dynamics_.scene->start;
+    x_g_stations_ =
+        stations(gauge_.centre(start), row_spacing, input.until.x_g, input.output.profiles_at_x_g);
+    const double end = input.until.time.value_or(std::numeric_limits<double>::infinity());
+    time_stations_ = stations(record_.time, input.until.x_g ? end : end / rows_in_time, input.until.time,
+                              input.output.profiles_at_time);
+  }
+
+  Outcome run() {
+    Outcome outcome;
+    try {
+      if (!started()) {
+        record_.position = dynamics_.scene->start;
+        record(0, dynamics_.scene->start, {.value = 0, .profile = true, .regular = true, .end = false});
+      }
+      outcome.status = input_.time.scheme == Scheme::bdf ? run_bdf() : run_explicit();
+    } catch (const NumericsFailure &failure) {
+      outcome.status = failure.kind == "unbounded" ? Status::unbounded : Status::failed;
+      const SeriesRow last = record_.series.empty() ? SeriesRow{} : record_.series.back();
+      outcome.failure = failure.kind;
+      outcome.message = fmt::format("{} (after t = {:.6g}, x_g = {:.6g}); {}", failure.what(), last.time,
+                                    last.x_g, failure.advice);
+    }
+    outcome.last = record_;
+    return outcome;
+  }
+
+private:
+  bool started() const { return record_.position.size() > 0; }
+
+  Status run_explicit() {
+    const auto rate = [this](const Vector &position) { return dynamics_.flow(position).velocity; };
+    last_accepted_ = record_.position;
+    for (;;) {
+      dynamics_.forget();
+      require_stable_step(record_.position);
+      try {
+        ExplicitIntegrator integrator(input_.time.scheme, rate, record_.time, record_.position,
+                                      input_.time.step);
+        if (const auto status = run_leg(integrator, explicit_steps_between_checkpoints))
+          return *status;
+      } catch (const NumericsFailure &failure) {
+        require_stable_step(last_accepted_);
+        throw NumericsFailure(failure.kind, failure.what(), failure.advice + ", or a shorter time.step");
+      }
+    }
+  }
+
+  // With explicit steps that are too long the fastest decay grows instead. Its rate is the largest eigenvalue of the
+  // Jacobian, which the paper preset does not have.
+  void require_stable_step(const Vector &position) const {
+    if (!dynamics_.jacobian)
+      return;
+    const double fastest = dynamics_.jacobian(position).eigenvalues().cwiseAbs().maxCoeff();
+    const double stable = stability_limit(input_.time.scheme) / fastest;
+    if (input_.time.step > stable)
+      throw NumericsFailure(
+          "step",
+          fmt::format("time.step = {:.3g} is unstable: beyond {:.3g} the fastest decay of the "
+                      "membrane, at a rate of {:.3g}, grows",
+                      input_.time.step, stable, fastest),
+          fmt::format("try time.step = {:.2g}", 0.9 * stable));
+  }
+
+  Status run_bdf() {
+    const double tolerance = choose_resolution(input_).time_tolerance;
+    const Equations equations{[&](const Vector &position, Vector &rate) {
+                                try {
+                                  rate = dynamics_.flow(position).velocity;
+                                  return true;
+                                } catch (const NumericsFailure &failure) {
+                                  cause_.emplace(failure);
+                                  return false;
+                                }
+                              },
+                              [&](const Vector &position, Matrix &jacobian) {
+                                try {
+                                  jacobian = dynamics_.jacobian(position);
+                                  return jacobian.allFinite();
+                                } catch (const NumericsFailure &failure) {
+                                  cause_.emplace(failure);
+                                  return false;
+                                }
+                              }};
+    for (;;) {
+      dynamics_.forget();
+      try {
+        BdfIntegrator integrator(equations, record_.time, record_.position, tolerance);
+        if (const auto status = run_leg(integrator, steps_between_checkpoints))
+          return *status;
+      } catch (const NumericsFailure &failure) {
+        if (failure.kind == "step" && cause_)
+          throw NumericsFailure(*cause_);
+        throw;
+      }
+    }
+  }
+
+  // Steps from one checkpoint to the next. The integrator starts afresh from each, so that an interrupted march goes on
+  // just as this one does. Empty: not at the end yet.
+  template <class Integrator>
+  std::optional<Status> run_leg(Integrator &integrator, int steps) {
+    for (int k = 0; k < steps; ++k) {
+      if (control_.interrupted && control_.interrupted())
+        return Status::interrupted;
+      cause_.reset();
+      integrator.step();
+      ++record_.steps;
+      if (record_due(integrator))
+        return Status::reached;
+    }
+    const double gone = integrator.time() - record_.time;
+    record_.time = integrator.time();
+    record_.position = integrator.state_at(integrator.time());
+    SeriesRow here; // only the film is measured between rows
+    here.min_film = gauge_.film(record_.position);
+    throw_if_stopped({.row = here});
+    if (input_.time.scheme == Scheme::bdf && gone < shortest_leg)
+      throw NumericsFailure("unresolved",
+                            fmt::format("the last {} steps lead on by {:.1g} only, with a film of {:.2g}",
+                                        steps, gone, here.min_film),
+                            "try a finer mesh.membrane");
+    if (control_.save)
+      control_.save(record_);
+    return std::nullopt;
+  }
+
+  // Records the rows that fall into the last step, in order of time; true at the end.
+  template <class Integrator>
+  bool record_due(const Integrator &integrator) {
+    const double now = integrator.time(), before = integrator.previous_time();
+    for (;;) {
+      double due = std::numeric_limits<double>::infinity();
+      const Station *station = nullptr;
+      bool in_time = false;
+      if (next_time_ < time_stations_.size() && time_stations_[next_time_].value <= now) {
+        station = &time_stations_[next_time_];
+        due = station->value;
+        in_time = true;
+      }
+      if (next_x_g_ < x_g_stations_.size()) {
+        const auto ahead = [&](double time) {
+          return gauge_.centre(integrator.state_at(time)) - x_g_stations_[next_x_g_].value;
+        };
+        if (ahead(now) >= 0) {
+          const double crossing = crossing_time(ahead, before, now);
+          if (crossing < due) {
+            station = &x_g_stations_[next_x_g_];
+            due = crossing;
+            in_time = false;
+          }
+        }
+      }
+      if (station == nullptr)
+        return false;
+      record(due, integrator.state_at(due), *station);
+      ++(in_time ? next_time_ : next_x_g_);
+      if (station->end) {
+        record_.time = due;
+        record_.position = integrator.state_at(due);
+        return true;
+      }
+    }
+  }
+
+  // x_g is nearly linear in a step: the secant rule needs about three values; halving guards it.
+  template <class Function>
+  static double crossing_time(const Function &ahead, double since, double now) {
+    double low = since, high = now;
+    double before = low, time = high;
+    double at_before = ahead(before), at_time = ahead(time);
+    if (at_before >= 0)
+      return since;
+    for (int k = 0; k < 100 && std::abs(at_time) > 1e-13; ++k) {
+      const double secant = time - at_time * (time - before) / (at_time - at_before);
+      before = time;
+      at_before = at_time;
+      time = secant > low && secant < high ? secant : (low + high) / 2;
+      at_time = ahead(time);
+      (at_time < 0 ? low : high) = time;
+    }
+    return time;
+  }
+
+  void record(double time, const Vector &position, const Station &station) {
+    // Nobody looks at the companion's second pressure drop.
+    const FlowState state =
+        role_ == Role::companion ? dynamics_.flow(position) : dynamics_.report(position, station.regular);
+    SeriesRow row = gauge_.row(time, position, state.velocity);
+    row.pressure_drop = state.pressure_drop;
+    row.pressure_drop_reciprocal = state.pressure_drop_reciprocal;
+    record_.series.push_back(row);
+    if (station.profile)
+      record_.profiles.push_back(gauge_.profile(time, position, state.velocity));
+    if (control_.progress)
+      control_.progress(row, record_.steps);
+    throw_if_stopped(
+        {.row = row, .crosses_itself = gauge_.crosses_itself(position), .roughness_limit = roughness_limit_});
+    last_accepted_ = position;
+  }
+
+  const Case &input_;
+  const Control &control_;
+  Role role_;
+  double roughness_limit_;
+  Dynamics dynamics_;
+  Gauge gauge_;
+  Checkpoint record_;
+  Vector last_accepted_;                 // position of the last row at which nothing stopped the march
+  std::optional<NumericsFailure> cause_; // why a shape that the present step tried has no flow
+  std::vector<Station> x_g_stations_, time_stations_;
+  std::size_t next_x_g_ = 0, next_time_ = 0;
+};
+
+} // namespace
+
+Outcome march_once(const Case &input, const Checkpoint &from, const Control &control, Role role,
+                   double roughness_limit) {
+  return March(input, from, control, role, roughness_limit).run();
+}
+
+} // namespace capsule

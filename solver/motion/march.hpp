@@ -1,0 +1,17 @@
+#pragma once
+// One march of a case, from a start or a checkpoint until the case's end or a reason to stop (stops.hpp).
+#include "motion/stops.hpp"
+#include "observe/outcome.hpp"
+
+namespace capsule {
+
+struct Case;
+
+// The march that is asked for; the coarser one that it is compared with, which may wrinkle where the other does not.
+enum class Role { main, companion };
+
+// The main march ends as wrinkled where dents are rougher than the limit.
+Outcome march_once(const Case &input, const Checkpoint &from, const Control &control, Role role,
+                   double roughness_limit = wrinkle_roughness);
+
+} // namespace capsule

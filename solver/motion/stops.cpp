@@ -1,0 +1,72 @@
+#include "motion/stops.hpp"
+#include "base/failure.hpp"
+#include "observe/outcome.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace capsule {
+namespace {
+
+constexpr double largest_volume_change = 1e-2;
+constexpr int dents_of_wrinkles = 3;
+
+constexpr std::array table{
+    // The equations see the nodes only. Where a thin film is gone between them, steps get ever shorter.
+    Stop{.kind = "touching",
+         .holds = [](const Instant &now) { return now.row.min_film <= 0; },
+         .what = [](const Instant &) -> std::string {
+           return "the membrane touches the wall between its nodes";
+         },
+         .advice = "try a smaller accuracy or a finer mesh.membrane"},
+    Stop{.kind = "self-contact",
+         .holds = [](const Instant &now) { return now.crosses_itself; },
+         .what = [](const Instant &) -> std::string { return "the membrane crosses itself"; },
+         .advice = "raise membrane.bending_ratio or refine mesh.membrane"},
+    Stop{.kind = "volume",
+         .holds = [](const Instant &now) { return std::abs(now.row.volume_change) > largest_volume_change; },
+         .what =
+             [](const Instant &now) {
+               return fmt::format("the volume has drifted by {:.2g} %", 100 * now.row.volume_change);
+             },
+         .advice = "try a smaller accuracy (or time.tolerance) or a finer mesh.membrane"},
+    Stop{.kind = "wrinkled",
+         .holds =
+             [](const Instant &now) {
+               return now.row.dents >= dents_of_wrinkles && now.row.roughness > now.roughness_limit;
+             },
+         .what =
+             [](const Instant &now) {
+               return fmt::format(
+                   "the membrane has wrinkled: {} dents, most of their bending in waves that the "
+                   "mesh barely resolves",
+                   now.row.dents);
+             },
+         .advice = "raise membrane.bending_ratio, or mesh.membrane until it resolves the wrinkles"},
+    Stop{.kind = "unbounded",
+         .holds = [](const Instant &now) { return now.row.max_stretch > runaway_stretch; },
+         .what =
+             [](const Instant &) {
+               return fmt::format("the membrane is stretched beyond {} and still growing", runaway_stretch);
+             },
+         .advice = "no steady state need exist: lower flow.capillary_number"},
+};
+
+} // namespace
+
+double wrinkle_roughness_on_chosen_nodes(double accuracy) {
+  return std::min(wrinkle_roughness, std::cbrt(accuracy));
+}
+
+std::span<const Stop> stops() {
+  return table;
+}
+
+void throw_if_stopped(const Instant &instant) {
+  for (const Stop &stop : stops())
+    if (stop.holds(instant))
+      throw NumericsFailure(stop.kind, stop.what(instant), stop.advice);
+}
+
+} // namespace capsule

@@ -1,0 +1,34 @@
+#pragma once
+// The reasons to stop a march before its end, each a line of a table (stops.cpp).
+#include "observe/records.hpp"
+#include <limits>
+#include <span>
+#include <string>
+
+namespace capsule {
+
+// Roughness (quantities.cpp) beyond which dents are wrinkles that the mesh does not resolve.
+constexpr double wrinkle_roughness = 0.4;
+// The same on nodes that were chosen from the accuracy: there wrinkles have to be resolved to it.
+double wrinkle_roughness_on_chosen_nodes(double accuracy);
+
+// What is known of the membrane at an instant.
+struct Instant {
+  const SeriesRow &row;
+  bool crosses_itself = false;
+  double roughness_limit = std::numeric_limits<double>::infinity(); // beyond it dents are wrinkles
+};
+
+struct Stop {
+  const char *kind; // of the NumericsFailure
+  bool (*holds)(const Instant &);
+  std::string (*what)(const Instant &);
+  const char *advice;
+};
+// In the order in which they are looked for.
+std::span<const Stop> stops();
+
+// Throws NumericsFailure for the first one that holds.
+void throw_if_stopped(const Instant &instant);
+
+} // namespace capsule
