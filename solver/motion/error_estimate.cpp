@@ -1,33 +1,18 @@
 #include "motion/error_estimate.hpp"
-#include "observe/columns.hpp"
+#include "observe/quantities.hpp"
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace capsule {
 namespace {
 
-// So many times the largest difference of the two marches bounds the error along the way; over a few rows, where all may
-// agree by accident, twice as many. Of Euler's scheme, of order 1, the difference is a ninth of the error.
+// The error along the way is at most this many times the largest difference of the two marches; at the end, where few
+// rows may agree by accident, twice as many times. With Euler's scheme, of order 1, the difference is a ninth of the error.
 constexpr double safety = 3;
 double safety_of(const std::string &quantity, Scheme scheme) {
   const bool of_the_way = quantity.find('@') != std::string::npos;
   return safety * (of_the_way ? 1 : 2) * (scheme == Scheme::euler ? 9 : 1);
 }
-
-constexpr std::array estimated{
-    series_column("time"),
-    series_column("x_g"),
-    series_column("v_g"),
-    series_column("pressure_drop"),
-    series_column("max_stretch"),
-    series_column("front_stretch"),
-    series_column("min_film"),
-    series_column("length"),
-    series_column("deformation"),
-    series_column("max_axial_residual"),
-    series_column("max_radial_velocity"),
-};
 
 // Rows of both marches at the same x_g, or at the same time where time tells the end.
 struct RowPair {
@@ -97,7 +82,9 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
   };
   const std::vector<RowPair> pairs = pair_rows(fine, coarse, place);
   for (const auto &[row, other] : pairs) {
-    for (const SeriesColumn &quantity : estimated) {
+    for (const ReportedQuantity &quantity : reported_quantities()) {
+      if (quantity.error != ErrorEstimate::of_marches && quantity.error != ErrorEstimate::of_all)
+        continue;
       const double difference = quantity.value == &SeriesRow::deformation
                                     ? deformation_difference(*row, *other)
                                     : row->*quantity.value - other->*quantity.value;
@@ -114,7 +101,9 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
     add("x_g_at_peak", std::max(std::abs(peak->x_g - coarse_peak->x_g), shift_of_peak(pairs, *peak)));
   for (auto &[quantity, difference] : error)
     difference *= safety_of(quantity, scheme);
-  error["volume_change"] = std::abs(fine.back().volume_change); // exactly none
+  for (const ReportedQuantity &quantity : reported_quantities())
+    if (quantity.error == ErrorEstimate::by_value_itself)
+      error[quantity.name] = std::abs(fine.back().*quantity.value);
   return error;
 }
 

@@ -9,23 +9,24 @@ namespace capsule {
 // Distance in x_g of two rows of a march.
 constexpr double row_spacing = 0.05;
 
+// The meaning of each value stands in quantities.cpp.
 struct SeriesRow {
   double time = 0;
-  double x_g = 0;                      // centre of mass
-  double v_g = 0;                      // its velocity
-  double pressure_drop = 0;            // extra pressure drop Delta P > 0, from the exit unknown
-  double pressure_drop_reciprocal = 0; // the same by the reciprocal theorem
-  double max_stretch = 0;              // largest lambda_s
-  double front_stretch = 0;            // lambda_s at the downstream pole
-  double min_film = 0;                 // smallest distance between membrane and wall
-  double length = 0;                   // axial extent
-  double deformation = 0;              // (length - diameter)/(length + diameter)
-  double volume_change = 0;            // (V - V_ini)/V_ini
+  double x_g = 0;
+  double v_g = 0;
+  double pressure_drop = 0;
+  double pressure_drop_reciprocal = 0;
+  double max_stretch = 0;
+  double front_stretch = 0;
+  double min_film = 0;
+  double length = 0;
+  double deformation = 0;
+  double volume_change = 0;
   double area_change = 0;
-  double max_axial_residual = 0;  // max |v_x - v_g|
-  double max_radial_velocity = 0; // max |v_r|
-  double dents = 0; // concave stretches in which the meridian turns back by more than dent_angle, gauge.hpp
-  double roughness = 0; // share of the shape's bending in the mesh's shortest third of waves
+  double max_axial_residual = 0;
+  double max_radial_velocity = 0;
+  double dents = 0;
+  double roughness = 0;
 };
 
 struct Profile {

@@ -2,7 +2,7 @@
 #include "base/atomic_file.hpp"
 #include "base/json_file.hpp"
 #include "base/text.hpp"
-#include "observe/columns.hpp"
+#include "observe/quantities.hpp"
 #include <cmath>
 
 namespace capsule {
@@ -46,15 +46,15 @@ void write_checkpoint(const fs::path &directory, const std::string &identity, co
   json["series"] = Json::array();
   for (const SeriesRow &row : checkpoint.series) {
     Json values = Json::array();
-    for (const SeriesColumn &column : series_columns)
-      values.push_back(exact(row.*column.value));
+    for (const ReportedQuantity &quantity : reported_quantities())
+      values.push_back(exact(row.*quantity.value));
     json["series"].push_back(std::move(values));
   }
   json["profiles"] = Json::array();
   for (const Profile &profile : checkpoint.profiles) {
     Json values{{"time", exact(profile.time)}, {"x_g", exact(profile.x_g)}};
-    for (const ProfileColumn &column : profile_columns)
-      values[column.name] = exact(profile.*column.values);
+    for (const ProfileQuantity &quantity : profile_quantities())
+      values[quantity.name] = exact(profile.*quantity.values);
     json["profiles"].push_back(std::move(values));
   }
   write_atomically(directory / "checkpoint.json", json.dump() + "\n");
@@ -74,16 +74,17 @@ std::optional<SavedRun> read_checkpoint(const fs::path &directory, const std::st
     checkpoint.position = exact_vector(json->at("position"));
     for (const Json &values : json->at("series")) {
       SeriesRow row;
-      for (std::size_t i = 0; i < series_columns.size(); ++i)
-        row.*series_columns.at(i).value = exact(values.at(i));
+      std::size_t i = 0;
+      for (const ReportedQuantity &quantity : reported_quantities())
+        row.*quantity.value = exact(values.at(i++));
       checkpoint.series.push_back(row);
     }
     for (const Json &values : json->at("profiles")) {
       Profile profile;
       profile.time = exact(values.at("time"));
       profile.x_g = exact(values.at("x_g"));
-      for (const ProfileColumn &column : profile_columns)
-        profile.*column.values = exact_vector(values.at(column.name));
+      for (const ProfileQuantity &quantity : profile_quantities())
+        profile.*quantity.values = exact_vector(values.at(quantity.name));
       checkpoint.profiles.push_back(std::move(profile));
     }
     return saved;

@@ -1,6 +1,6 @@
 #include "output/paraview.hpp"
 #include "base/text.hpp"
-#include "observe/columns.hpp"
+#include "observe/quantities.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -44,14 +44,14 @@ std::string surface_vtp(const Profile &profile) {
     offsets += fmt::format("{}\n", (i + 1) * 2 * (turns + 1));
   }
   std::string fields;
-  for (const ProfileColumn &column : profile_columns) {
-    const std::string_view name = column.name;
+  for (const ProfileQuantity &quantity : profile_quantities()) {
+    const std::string_view name = quantity.name;
     if (!name.starts_with("stretch") && !name.starts_with("tension"))
       continue;
     fields += fmt::format("<DataArray type=\"Float32\" Name=\"{}\" format=\"ascii\">\n", name);
     for (const Eigen::Index i : chosen)
       for (int k = 0; k < turns; ++k)
-        fields += fmt::format("{:.5g}\n", (profile.*column.values)[i]);
+        fields += fmt::format("{:.5g}\n", (profile.*quantity.values)[i]);
     fields += "</DataArray>\n";
   }
   return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"

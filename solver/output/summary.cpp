@@ -3,13 +3,14 @@
 #include "base/json_file.hpp"
 #include "case/keys.hpp"
 #include "case/physical.hpp"
-#include "observe/columns.hpp"
+#include "observe/outcome.hpp"
+#include "observe/quantities.hpp"
+#include "output/checkpoint.hpp"
 #include "output/tables.hpp"
 #include "scene/resolution.hpp"
 #include <cerrno>
 #include <cmath>
 #include <fmt/format.h>
-#include <string_view>
 
 namespace capsule {
 namespace {
@@ -45,21 +46,19 @@ Json to_json(const Value &value) {
       value);
 }
 
-// What the end of a run says of the pore means nothing in an unbounded liquid.
-bool applies(std::string_view quantity, const Case &physics) {
-  const bool of_the_pore = quantity.find("pressure_drop") != std::string_view::npos ||
-                           quantity == "x_g_at_peak" || quantity == "min_film";
-  return !of_the_pore || physics.flow.type == FlowType::pore;
-}
-
 // The values of a summary in SI units, by their name and unit.
 Json physical_json(const Case &physics, const Json &summary) {
   const Scales scales = physical_scales(physics);
   Json json = Json::object();
-  for (const PhysicalColumn &column : physical_columns)
-    if (const Json &value = summary.at(column.name); value.is_number())
-      json[fmt::format("{} [{}]", column.name, unit_text(column.of))] =
-          value.get<double>() * scales.*column.scale;
+  const auto put = [&](const char *name, const PhysicalUnit &unit) {
+    if (const Json &value = summary.at(name); value.is_number())
+      json[name_with_unit(name, unit)] = value.get<double>() * scales.*unit.scale;
+  };
+  for (const ReportedQuantity &quantity : reported_quantities())
+    if (quantity.unit)
+      put(quantity.name, *quantity.unit);
+  for (const PeakQuantity &quantity : peak_quantities())
+    put(quantity.name, quantity.unit);
   json[fmt::format("tension scale [{}]", unit_text(dimension::tension))] = scales.tension;
   return json;
 }
@@ -72,15 +71,15 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   json["failure"] = outcome.failure.empty() ? Json() : Json(outcome.failure);
   json["message"] = outcome.message.empty() ? Json() : Json(outcome.message);
   const std::vector<SeriesRow> &series = outcome.last.series;
-  const auto put = [&](const char *name, std::optional<double> value) {
-    json[name] = value && applies(name, physics) ? finite_or_null(*value) : Json();
-  };
-  for (const SeriesColumn &column : series_columns)
-    put(column.name, series.empty() ? std::nullopt : std::optional(series.back().*column.value));
+  const bool has_pore = physics.flow.type == FlowType::pore;
+  const auto applies = [&](const ReportedQuantity &quantity) { return has_pore || !quantity.of_the_pore; };
+  for (const ReportedQuantity &quantity : reported_quantities())
+    json[quantity.name] =
+        applies(quantity) && !series.empty() ? finite_or_null(series.back().*quantity.value) : Json();
   const bool moved = outcome.status != Status::steady && outcome.along.empty();
-  const auto peak = moved ? entry_peak(series) : std::nullopt;
-  put("peak_pressure_drop", peak ? std::optional(peak->pressure_drop) : std::nullopt);
-  put("x_g_at_peak", peak ? std::optional(peak->x_g) : std::nullopt);
+  const auto peak = moved && has_pore ? entry_peak(series) : std::nullopt;
+  for (const PeakQuantity &quantity : peak_quantities())
+    json[quantity.name] = peak ? finite_or_null((*peak).*quantity.value) : Json();
   if (in_physical_units(physics, outcome))
     json["physical"] = physical_json(physics, json);
   for (const auto &[quantity, value] : outcome.further)
@@ -90,9 +89,9 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
     json["folds"] = Json::array();
     for (const BranchRow &fold : outcome.folds) {
       Json entry{{outcome.along, fold.parameter}, {"growth_rate", fold.growth_rate}};
-      for (const SeriesColumn &column : branch_columns)
-        if (applies(column.name, physics))
-          entry[column.name] = finite_or_null(fold.row.*column.value);
+      for (const ReportedQuantity &quantity : branch_quantities())
+        if (applies(quantity))
+          entry[quantity.name] = finite_or_null(fold.row.*quantity.value);
       json["folds"].push_back(std::move(entry));
     }
   }

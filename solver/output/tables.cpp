@@ -3,7 +3,8 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/physical.hpp"
-#include "observe/columns.hpp"
+#include "observe/outcome.hpp"
+#include "observe/quantities.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -12,24 +13,24 @@ namespace {
 
 std::string profiles_header() {
   std::string text = "time,x_g";
-  for (const ProfileColumn &column : profile_columns)
-    text += fmt::format(",{}", column.name);
+  for (const ProfileQuantity &quantity : profile_quantities())
+    text += fmt::format(",{}", quantity.name);
   return text;
 }
 
-struct ScaledColumn {
+struct Column {
   std::string head;
   double SeriesRow::*value;
-  double scale;
+  double scale = 1;
 };
 
-std::string scaled_csv(const std::vector<ScaledColumn> &columns, const std::vector<SeriesRow> &series) {
+std::string csv_of(const std::vector<Column> &columns, const std::vector<SeriesRow> &series) {
   std::string text;
-  for (const ScaledColumn &column : columns)
+  for (const Column &column : columns)
     text += fmt::format("{}{}", text.empty() ? "" : ",", column.head);
   for (const SeriesRow &row : series) {
     char separator = '\n';
-    for (const ScaledColumn &column : columns) {
+    for (const Column &column : columns) {
       text += separator + number_text(row.*column.value * column.scale);
       separator = ',';
     }
@@ -40,10 +41,10 @@ std::string scaled_csv(const std::vector<ScaledColumn> &columns, const std::vect
 } // namespace
 
 std::string series_csv(const std::vector<SeriesRow> &series) {
-  std::vector<ScaledColumn> columns;
-  for (const SeriesColumn &column : series_columns)
-    columns.push_back({column.name, column.value, 1});
-  return scaled_csv(columns, series);
+  std::vector<Column> columns;
+  for (const ReportedQuantity &quantity : reported_quantities())
+    columns.push_back({quantity.name, quantity.value});
+  return csv_of(columns, series);
 }
 
 bool in_physical_units(const Case &physics, const Outcome &outcome) {
@@ -52,25 +53,24 @@ bool in_physical_units(const Case &physics, const Outcome &outcome) {
 
 std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow> &series) {
   const Scales scales = physical_scales(physics);
-  std::vector<ScaledColumn> columns;
-  for (const PhysicalColumn &column : physical_columns)
-    if (const auto *const source =
-            std::ranges::find(series_columns, std::string_view(column.name), &SeriesColumn::name);
-        source != series_columns.end())
+  std::vector<Column> columns;
+  for (const ReportedQuantity &quantity : reported_quantities())
+    if (quantity.unit)
       columns.push_back(
-          {fmt::format("{} [{}]", column.name, unit_text(column.of)), source->value, scales.*column.scale});
-  return scaled_csv(columns, series);
+          {name_with_unit(quantity.name, *quantity.unit), quantity.value, scales.*quantity.unit->scale});
+  return csv_of(columns, series);
 }
 
 std::string branch_csv(const Outcome &outcome) {
+  const std::vector<ReportedQuantity> quantities = branch_quantities();
   std::string text = outcome.along;
-  for (const SeriesColumn &column : branch_columns)
-    text += fmt::format(",{}", column.name);
+  for (const ReportedQuantity &quantity : quantities)
+    text += fmt::format(",{}", quantity.name);
   text += ",growth_rate\n";
   for (const BranchRow &point : outcome.branch) {
     text += number_text(point.parameter);
-    for (const SeriesColumn &column : branch_columns)
-      text += ',' + number_text(point.row.*column.value);
+    for (const ReportedQuantity &quantity : quantities)
+      text += ',' + number_text(point.row.*quantity.value);
     text += fmt::format(",{}\n", number_text(point.growth_rate));
   }
   return text;
@@ -81,8 +81,8 @@ std::string profiles_csv(const std::vector<Profile> &profiles) {
   for (const Profile &profile : profiles)
     for (Eigen::Index i = 0; i < profile.x.size(); ++i) {
       text += fmt::format("\n{},{}", number_text(profile.time), number_text(profile.x_g));
-      for (const ProfileColumn &column : profile_columns)
-        text += ',' + number_text((profile.*column.values)[i]);
+      for (const ProfileQuantity &quantity : profile_quantities())
+        text += ',' + number_text((profile.*quantity.values)[i]);
     }
   return text + "\n";
 }
@@ -105,9 +105,9 @@ Profile read_last_profile(const std::filesystem::path &directory) {
   Profile profile;
   profile.time = time.back();
   profile.x_g = x_g.back();
-  for (const ProfileColumn &column : profile_columns) {
-    const std::vector<double> &values = values_of(column.name);
-    profile.*column.values =
+  for (const ProfileQuantity &quantity : profile_quantities()) {
+    const std::vector<double> &values = values_of(quantity.name);
+    profile.*quantity.values =
         Eigen::Map<const Vector>(values.data() + first, static_cast<Eigen::Index>(values.size() - first));
   }
   return profile;

@@ -1,5 +1,6 @@
 #include "steady/refinement.hpp"
 #include "observe/gauge.hpp"
+#include "observe/quantities.hpp"
 #include "steady/growth_rates.hpp"
 #include <algorithm>
 #include <cmath>
@@ -14,29 +15,27 @@ namespace {
 std::map<std::string, double> errors_of(const SeriesRow &fine, const SeriesRow &coarse) {
   const double quadrature = std::abs(fine.pressure_drop - fine.pressure_drop_reciprocal);
   const double relative = quadrature / std::max(std::abs(fine.pressure_drop), 1.0);
-  const auto error = [&](double SeriesRow::*quantity, double common) {
-    return std::abs(fine.*quantity - coarse.*quantity) + common;
-  };
-  return {{"v_g", error(&SeriesRow::v_g, relative)},
-          {"pressure_drop", error(&SeriesRow::pressure_drop, quadrature)},
-          {"max_stretch", error(&SeriesRow::max_stretch, relative)},
-          {"front_stretch", error(&SeriesRow::front_stretch, relative)},
-          {"min_film", error(&SeriesRow::min_film, relative)},
-          {"length", error(&SeriesRow::length, relative)},
-          {"deformation", error(&SeriesRow::deformation, relative)},
-          {"volume_change", std::abs(fine.volume_change)}};
+  std::map<std::string, double> errors;
+  for (const ReportedQuantity &quantity : reported_quantities()) {
+    const double value = fine.*quantity.value;
+    if (quantity.error == ErrorEstimate::by_value_itself)
+      errors[quantity.name] = std::abs(value);
+    else if (quantity.error == ErrorEstimate::of_all)
+      errors[quantity.name] = std::abs(value - coarse.*quantity.value) +
+                              (quantity.value == &SeriesRow::pressure_drop ? quadrature : relative);
+  }
+  return errors;
 }
 
-// Whether two meshes agree: quantities of the whole membrane to a tenth of the accuracy, the stretches, which are
-// local, to the accuracy itself. The finer mesh is closer to the truth by an order or more.
+// Whether two meshes agree to the accuracy, or as much of it as each quantity asks for. The finer mesh is closer to the
+// truth by an order or more.
 bool agree(const SeriesRow &a, const SeriesRow &b, double accuracy) {
-  const auto near = [&](double SeriesRow::*quantity, double scale, double share) {
-    return std::abs(a.*quantity - b.*quantity) <= share * accuracy * scale;
-  };
-  return near(&SeriesRow::v_g, 1, 0.1) && near(&SeriesRow::pressure_drop, std::abs(a.pressure_drop), 0.1) &&
-         near(&SeriesRow::length, a.length, 0.1) && near(&SeriesRow::deformation, 1, 0.1) &&
-         near(&SeriesRow::max_stretch, a.max_stretch, 1) &&
-         near(&SeriesRow::front_stretch, a.front_stretch, 1);
+  return std::ranges::all_of(reported_quantities(), [&](const ReportedQuantity &quantity) {
+    const auto &[share, relative] = quantity.agreement;
+    const double value = a.*quantity.value;
+    return share == 0 ||
+           std::abs(value - b.*quantity.value) <= share * accuracy * (relative ? std::abs(value) : 1);
+  });
 }
 
 std::string poorly_resolved(int nodes) {
