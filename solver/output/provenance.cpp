@@ -2,6 +2,7 @@
 #include "base/build_info.hpp"
 #include "base/json_file.hpp"
 #include "case/identity.hpp"
+#include "output/checkpoint.hpp"
 #include <algorithm>
 #include <cblas.h>
 #include <chrono>

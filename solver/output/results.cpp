@@ -1,8 +1,11 @@
 #include "output/results.hpp"
 #include "base/atomic_file.hpp"
 #include "base/failure.hpp"
+#include "case/case_file.hpp"
 #include "case/identity.hpp"
 #include "case/keys.hpp"
+#include "observe/outcome.hpp"
+#include "output/checkpoint.hpp"
 #include "output/paraview.hpp"
 #include "output/provenance.hpp"
 #include "output/summary.hpp"
@@ -22,18 +25,17 @@ bool is_result(const fs::path &file) {
          name == "branch.csv" || (name.starts_with("membrane_") && name.ends_with(".vtp"));
 }
 
-// What a killed process leaves behind of a run's files; of others, another process may be writing.
+// A temporary file that a killed process has left of a run's files. Any other may be what another process is writing.
 bool is_left_over(const fs::path &file) {
-  return std::ranges::any_of(final_names(file), [](const fs::path &meant) {
-    return is_result(meant) || meant == "checkpoint.json";
-  });
+  return std::ranges::any_of(
+      final_names(file), [](const fs::path &name) { return is_result(name) || name == "checkpoint.json"; });
 }
 
 Case input_of(const fs::path &directory, const Task &task) {
   return read_case(directory / "resolved.toml", {}, task).runs.at(0).physics;
 }
 
-// "flow.viscosity_ratio = 1, no until.time": what the first has in place of the second.
+// Where the first differs from the second: "flow.viscosity_ratio = 1, no until.time".
 std::string what_differs(const Case &first, const Case &second) {
   std::string text;
   for (const Key &key : keys()) {
@@ -96,7 +98,7 @@ std::string other_results(const fs::path &directory, const Case &physics, const 
       return fmt::format("the results of `capsule {}`", made_by);
     const Case other = input_of(directory, task);
     return same_input(other, physics, task) ? "" : fmt::format("a run with {}", what_differs(other, physics));
-  } catch (const std::exception &) { // files that are damaged, or of no longer a valid input
+  } catch (const std::exception &) { // damaged files, or no longer a valid input
     return "results that cannot be read any more";
   }
 }

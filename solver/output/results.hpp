@@ -10,13 +10,15 @@
 //   run.json       provenance, and the identity by which a finished run is found again
 //   checkpoint.json   while the run is not finished
 // Every function throws FileError with the path and the system's reason.
-#include "case/case_file.hpp"
-#include "observe/outcome.hpp"
-#include "output/checkpoint.hpp"
+#include "case/task.hpp"
 #include <filesystem>
 #include <string>
 
 namespace capsule {
+
+struct Case;
+struct Effort;
+struct Outcome;
 
 // All files of a finished run, summary.json last; then the checkpoint goes.
 void write_results(const std::filesystem::path &directory, const Case &physics, const Outcome &outcome,
@@ -26,14 +28,13 @@ void write_results(const std::filesystem::path &directory, const Case &physics, 
 bool is_finished(const std::filesystem::path &directory, const std::string &identity);
 // Whether the directory holds what the task makes of this input, by whatever version of the program.
 bool is_finished_input(const std::filesystem::path &directory, const Case &physics, const Task &task = {});
-// What is in the directory of another input or task, in words for who takes its place: "the results of `capsule
-// steady`", "a run with flow.viscosity_ratio = 1", "an interrupted run"; empty if nothing is. Throws nothing.
+// Results of another input or task in the directory, in words, for whoever replaces them: "the results of `capsule
+// steady`", "a run with flow.viscosity_ratio = 1", "an interrupted run"; empty if there are none. Throws nothing.
 std::string other_results(const std::filesystem::path &directory, const Case &physics, const Task &task = {});
 
-// Takes away the results of whatever run the directory holds, the summary first, and what a killed process
-// left.
+// Removes the results of whatever run the directory holds, the summary first, and what a killed process has left.
 void remove_results(const std::filesystem::path &directory);
-// Makes the results of one directory those of another too, without copying where the file system can.
+// Puts the results of one directory into another, too, by hard links where the file system has them.
 void share_results(const std::filesystem::path &from, const std::filesystem::path &to);
 
 } // namespace capsule

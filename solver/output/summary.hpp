@@ -1,13 +1,14 @@
 #pragma once
 // summary.json: the end of a run in one object, with its error estimates, its cost and its complete parameters.
-#include "case/case.hpp"
-#include "observe/outcome.hpp"
-#include "output/checkpoint.hpp"
 #include <filesystem>
 #include <map>
 #include <string>
 
 namespace capsule {
+
+struct Case;
+struct Effort;
+struct Outcome;
 
 std::string summary_text(const Case &physics, const Outcome &outcome, const Effort &effort);
 

@@ -1,14 +1,16 @@
 #pragma once
-// The tables that a run leaves, as comma-separated values under a head of names (columns.hpp): one row per recorded
+// The tables that a run leaves, as comma-separated values under a head of names (quantities.hpp): one row per recorded
 // instant, per point of a branch, per point of each profile. Numbers have the fewest digits that read back as the
 // same double.
-#include "case/case.hpp"
-#include "observe/outcome.hpp"
+#include "observe/records.hpp"
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace capsule {
+
+struct Case;
+struct Outcome;
 
 std::string series_csv(const std::vector<SeriesRow> &series);
 // Whether there are values in SI units: of a case in physical units, but not along a branch, where the scales change.

@@ -4,6 +4,7 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/identity.hpp"
+#include "output/checkpoint.hpp"
 #include "output/results.hpp"
 #include "program/progress.hpp"
 #include "program/workers.hpp"
