@@ -1,7 +1,6 @@
 #pragma once
 // The equations of motion of a case, whichever numerics it asks for: position of the membrane's nodes ->
 // velocity.
-#include "case/case.hpp"
 #include "flow/flow_state.hpp"
 #include "scene/scene.hpp"
 #include <functional>

@@ -1,4 +1,5 @@
 #include "program/progress.hpp"
+#include "case/case.hpp"
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>

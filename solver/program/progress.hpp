@@ -1,11 +1,12 @@
 #pragma once
 // Messages about the runs of a case: one line on a terminal that changes while they are computed, and lines that stay.
-#include "case/case.hpp"
 #include <chrono>
 #include <map>
 #include <string>
 
 namespace capsule {
+
+struct Case;
 
 // The part of a run that is done, 0 to 1: of its time or its way, whichever ends sooner.
 double fraction_done(const Case &physics, double time, double x_g);

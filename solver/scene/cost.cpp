@@ -1,4 +1,5 @@
 #include "scene/cost.hpp"
+#include "case/case.hpp"
 #include "scene/resolution.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
 #include "scene/resolution.hpp"
+#include "case/case.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>

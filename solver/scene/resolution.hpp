@@ -1,10 +1,11 @@
 #pragma once
 // Mesh, quadrature and time tolerance, chosen from the accuracy asked for. Keys of the case override what they name.
 // How the numbers were found: paper-notes/methods.md.
-#include "case/case.hpp"
 #include "flow/flow_resolution.hpp"
 
 namespace capsule {
+
+struct Case;
 
 struct Resolution {
   int membrane_nodes = 64; // N

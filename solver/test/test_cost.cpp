@@ -1,4 +1,5 @@
 // What a run is expected to cost: in proportion to its duration, its steps and their stages.
+#include "case/case.hpp"
 #include "scene/cost.hpp"
 #include <boost/test/unit_test.hpp>
 

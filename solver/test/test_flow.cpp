@@ -1,5 +1,6 @@
 // The flow around given shapes against exact solutions: the empty pore, drops and spheres.
 #include "base/failure.hpp"
+#include "case/case.hpp"
 #include "motion/dynamics.hpp"
 #include "observe/gauge.hpp"
 #include "scene/make_flow.hpp"

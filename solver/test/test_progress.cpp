@@ -1,4 +1,5 @@
 // The line about runs under way: when it is shown, which run it speaks of, and what it expects.
+#include "case/case.hpp"
 #include "program/progress.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
