@@ -7,7 +7,7 @@
 SHELL := /bin/bash
 
 .DEFAULT_GOAL := build
-.PHONY: help setup build figures tables report atlas sweep sweep-case test bench paper-numerics lint sanitize fuzz coverage clean
+.PHONY: help setup configure build figures tables report atlas sweep sweep-case test bench paper-numerics lint sanitize fuzz coverage clean
 
 help:
 	@echo 'make [build]         build the solver, build/capsule'
@@ -37,10 +37,10 @@ setup:
 	  $$root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$${missing[@]}"; \
 	fi
 
-build/build.ninja: | setup
-	cmake --preset default
+configure: setup
+	@cmake/configure.sh default build
 
-build: build/build.ninja
+build: configure
 	@cmake --build build --target capsule
 
 figures: build
@@ -55,14 +55,18 @@ report: build
 atlas: build
 	@cmake --build build --target atlas -- -k 0
 
+# As they are typed, in the environment: neither make nor a shell reads them again.
+override export CASE := $(value CASE)
+override export JOBS := $(value JOBS)
+override export SSH := $(value SSH)
 sweep: sweep-case build
-	@sweep/parallel.sh $(CASE) $(or $(JOBS),100%) $(SSH)
+	@sweep/parallel.sh "$$CASE" "$${JOBS:-100%}" $${SSH:+"$$SSH"}
 sweep-case:
-	@[ -n "$(CASE)" ] && [ -e "$(CASE)" ] || { echo "error: CASE=$(CASE) is no case, try CASE=cases/..."; exit 2; }
+	@[ -e "$$CASE" ] || { printf "error: CASE='%s' is no case, try CASE=cases/...\n" "$$CASE"; exit 2; }
 
-test: build/build.ninja
+test: configure
 	@cmake --build build
-	@ctest --test-dir build --output-on-failure -j2
+	@ctest --test-dir build --output-on-failure -j2; code=$$?; cmake/skipped.sh build; exit $$code
 
 # The results become data of the case, with their provenance; what ParaView reads stays in results/.
 PAPER := table1-mesh/paper-numerics fig10-viscosity-ellipsoid/paper-numerics fig10-viscosity-ellipsoid/paper-mesh
@@ -71,7 +75,7 @@ paper-numerics: build
 	  build/capsule show cases/$$case.toml | tail -n 1; \
 	  build/capsule run cases/$$case.toml; (( $$? == 0 || $$? == 3 )) || exit; \
 	  for run in results/$${case/\//-}/*/; do \
-	    install -m 644 -D -t cases/$$case/$$(basename $$run) $$run/{summary,run}.json $$run/series.csv $$run/resolved.toml; \
+	    install -m 644 -D -t "cases/$$case/$$(basename "$$run")" "$$run"/{summary,run}.json "$$run"/{series.csv,resolved.toml}; \
 	  done; \
 	done
 
@@ -87,17 +91,17 @@ bench: build
 lint: build
 	@cmake/lint.sh build
 
-sanitize: | setup
-	@cmake --preset sanitize && cmake --build --preset sanitize && ctest --preset sanitize
+sanitize: setup
+	@cmake/configure.sh sanitize build-sanitize && cmake --build --preset sanitize && ctest --preset sanitize
 
 # Half of the time for each; what was found on the way stays in build-fuzz/ for the next time.
 SECONDS ?= 600
-fuzz: | setup
-	@cmake --preset fuzz && cmake --build --preset fuzz
-	@cmake/fuzz.sh $(SECONDS)
+fuzz: setup
+	@cmake/configure.sh fuzz build-fuzz && cmake --build --preset fuzz
+	@cmake/fuzz.sh "$(SECONDS)"
 
-coverage: | setup
-	@cmake --preset coverage && cmake --build --preset coverage
+coverage: setup
+	@cmake/configure.sh coverage build-coverage && cmake --build --preset coverage
 	@cmake/coverage.sh
 
 clean:

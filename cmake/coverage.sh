@@ -14,11 +14,11 @@ ctest --test-dir "$build" -j2 --output-on-failure \
 rm -rf "$build/counts"
 mkdir "$build/counts"
 cd "$build" # from where the compiler saw the sources
-find "$build/CMakeFiles/solver.dir" "$build/CMakeFiles/capsule.dir" "$build"/CMakeFiles/test_*.dir -name '*.gcda' |
-  xargs -n 1 gcov --long-file-names --preserve-paths >/dev/null 2>&1
+find CMakeFiles/solver.dir CMakeFiles/capsule.dir CMakeFiles/test_*.dir -name '*.gcda' \
+  -exec gcov --long-file-names --preserve-paths {} \; >/dev/null 2>&1
 mv ./*.gcov counts
-awk -F: -v not_run="$build/not-run.txt" '
-  $2 + 0 == 0 { if ($3 == "Source") source = $4; next }
+awk -F: '
+  $2 + 0 == 0 { if ($3 == "Source") source = substr($0, index($0, "Source:") + 7); next }
   source !~ /\/solver\/[a-z]*\/[^\/]*\.[ch]pp$/ || source ~ /\/solver\/(test|tool|benchmark)\// { next }
   { gsub(/ /, "", $1); sub(/^.*\/solver\//, "", source) ; source = "/solver/" source }
   $1 == "-" { next }
@@ -27,7 +27,7 @@ awk -F: -v not_run="$build/not-run.txt" '
     for (line in lines) {
       file = substr(lines[line], 9)
       ++all[file]; ++total
-      if (line in run) { ++done[file]; ++total_run } else print substr(line, 9) > not_run
+      if (line in run) { ++done[file]; ++total_run } else print substr(line, 9) > "not-run.txt"
     }
     for (file in all) printf "%6.1f %% of %4d  %s\n", 100 * done[file] / all[file], all[file], file | "sort -n"
     close("sort -n")

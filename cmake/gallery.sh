@@ -15,7 +15,10 @@ show() { # a figure, by its caption's file
 }
 for directory in figures/*/; do
   id=$(basename "$directory")
-  [ -d "cases/$id" ] || [ -d "validation/$id" ] || rm -r "$directory"
+  [ -d "cases/$id" ] || [ -d "validation/$id" ] || {
+    rm -f "$directory"*.svg "$directory"*.png "$directory"*.md
+    rmdir "$directory" 2>/dev/null || true # somebody else's
+  }
 done
 {
   echo '# Figures and tables'

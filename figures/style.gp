@@ -1,15 +1,28 @@
 # How every figure looks: formats, font, lines, colours, the pore's wall, and where numbers are found. A case's
 # figure.gp says what is drawn and what it shows. To draw a case:
-#   gnuplot -e "case='<id>'; out='figures'" figures/style.gp
-# and a study of validation/ with folder='validation' besides.
+#   gnuplot -c figures/style.gp cases/<id> figures
+# and a study: validation/<id>.
 # Scales: lengths R_t, velocities Q/(pi R_t^2), pressures mu Q/(pi R_t^3), times pi R_t^3/Q.
 
-if (!exists("folder")) folder = "cases"
+source = ARG1
+out = ARG2
+case = source[strstrt(source, "/") + 1:]
+pictures = out."/".case
+
+# A text as one word of the shell: a run may be called like any case that it is of.
+quoted(text) = "'".without_apostrophe(text)."'"
+without_apostrophe(text) = strstrt(text, "'") ? \
+  text[:strstrt(text, "'") - 1]."'\\''".without_apostrophe(text[strstrt(text, "'") + 1:]) : text
 
 # Results. A run is named as its directory, "viscosity_ratio=1"; "." is the only run of a case without a sweep.
-runs = system("test ! -f results/".case."/runs.txt || tr '\n' ' ' < results/".case."/runs.txt")
-count = words(runs)
-run(i) = word(runs, i + 0)
+run_list = "results/".case."/runs.txt"
+runs = system("cat ".run_list." 2>/dev/null | tr '\n' ' '")
+count = int(system("cat ".run_list." 2>/dev/null | wc -l"))
+if (count > 0) {
+  array run_names[count]
+  do for [i=1:count] { run_names[i] = system(sprintf("sed -n %dp ", i).run_list) }
+}
+run(i) = run_names[i + 0]
 results(run) = "results/".case."/".run
 series(run) = results(run)."/series.csv"
 profiles(run) = results(run)."/profiles.csv"
@@ -19,20 +32,21 @@ series_physical(run) = results(run)."/series_physical.csv" # of a case in physic
 # gnuplot takes "5e-09" for 5 with something behind it, "5.e-09" for what it is.
 with_point(text) = strstrt(text, "e") && !strstrt(text, ".") ? text[:strstrt(text, "e") - 1].".".text[strstrt(text, "e"):] : text
 number(text) = text eq "" ? NaN : with_point(text) + 0
-entry(directory, key) = number(system("awk -F'[:,]' '/^".key.":/ {printf \"%.16e\", $2}' ".directory."/summary.json 2>/dev/null"))
+entry(directory, key) = number(system("awk -F'[:,]' '/^".key.":/ {printf \"%.16e\", $2}' ".quoted(directory."/summary.json")." 2>/dev/null"))
 result_in(directory, name) = entry(directory, "  \"".name."\"")
 result(run, name) = result_in(results(run), name)
 error_of(run, name) = entry(results(run), "    \"".name."\"")
 parameter(run, key) = entry(results(run), "    \"".key."\"")
 # A word of it: "skalak", "reached".
-entry_word(directory, key) = system("sed -n 's/^".key.": \"\\(.*\\)\",*$/\\1/p' ".directory."/summary.json")
+entry_word(directory, key) = system("sed -n 's/^".key.": \"\\(.*\\)\",*$/\\1/p' ".quoted(directory."/summary.json"))
 parameter_word(run, key) = entry_word(results(run), "    \"".key."\"")
 result_word(run, name) = entry_word(results(run), "  \"".name."\"")
 # The first run in which a key has the value, or else the first of all.
 run_with(key, value) = first_of(key, value, 1)
 first_of(key, value, i) = i > count ? run(1) : abs(parameter(run(i), key) - value) < 1e-9 ? run(i) : first_of(key, value, i + 1)
 published(id) = published_of(case." ".runs, id)
-published_of(cases, id) = number(system("awk -F, '$1 == \"".id."\" && (index(\"".cases."\", $3) || index($3, \"".word(cases, 1)."\") == 1) {printf \"%.16e\", $6}' tables/published.csv"))
+published_of(cases, id) = number(system("cases=".quoted(cases)." case=".quoted(word(cases, 1))." awk -F, '$1 == \"".id."\" && \
+  (index(ENVIRON[\"cases\"], $3) || index($3, ENVIRON[\"case\"]) == 1) {printf \"%.16e\", $6}' tables/published.csv"))
 # In words: a relative distance, "" where there is no published value; a list that grows by an item.
 distance(ours, published) = published == published ? sprintf("%+.2f %%", 100 * (ours / published - 1)) : ""
 listed(list, item) = list.(list eq "" || item eq "" ? "" : ", ").item
@@ -71,18 +85,20 @@ terminal(width, height) = format eq "svg" \
   : sprintf("set terminal pngcairo enhanced size %.0f,%.0f font '%s,9' fontscale 3 linewidth 3 pointscale 3", \
             3 * pixels(width), 3 * pixels(height), "Liberation Sans")
 figure(name, width, height) = "reset; ".terminal(width, height)."; ".defaults. \
-  sprintf("set output '%s/%s/%s.%s'; ", out, case, name, format). \
-  sprintf("set print '%s/%s/%s.md'; print '![%s](%s/%s.png)', \"\n\"", out, case, name, name, case, name)
+  sprintf("set output pictures.'/%s.%s'; set print pictures.'/%s.md'; ", name, format, name). \
+  sprintf("print '![%s](%s/%s.png)', \"\n\"", name, case, name)
 defaults = "set encoding utf8; set datafile separator ','; set datafile columnheaders; set datafile missing NaN; \
   set samples 400; set angles radians; set border 3 linewidth 0.8; set tics nomirror scale 0.6; \
   set key noautotitle Left reverse samplen 2.5 spacing 1.2;"
 
 # `eval table("table2")` opens a table of comma-separated rows for `print`; `eval end_table("table2")` writes it as
-# Markdown, too. Tables lie beside the figures, in the directory tables.
-tables = out."/../tables"
-table(name) = sprintf("set print '%s/%s.csv'", tables, name)
-end_table(name) = sprintf("set print; system('sed \"s/,/ | /g; s/^/| /; s/$/ |/; 1{p; s/[^|]\\+/ --- /g}\" %s/%s.csv > %s/%s.md')", \
-  tables, name, tables, name)
+# Markdown, too. Tables of a case that the paper's values speak of lie beside the figures, in the directory tables; those of
+# another, perhaps its copy, with its pictures.
+of_the_paper = int(system("cut -d, -f3 tables/published.csv | grep -cxF -e ".quoted(case)))
+tables = of_the_paper > 0 ? out."/../tables" : pictures
+table(name) = sprintf("set print tables.'/%s.csv'", name)
+end_table(name) = sprintf("set print; end_table_ = system(as_markdown(tables.'/%s'))", name)
+as_markdown(file) = "sed 's/,/ | /g; s/^/| /; s/$/ |/; 1{p; s/[^|]\\+/ --- /g}' ".quoted(file.".csv")." > ".quoted(file.".md")
 # A cell: the number in this format, empty where there is none.
 cell(form, x) = x == x ? sprintf(form, x) : ""
 
@@ -106,13 +122,13 @@ wall = "sample [t=-3:20] '+' using (wall_x(t)):(wall_r(t)):(10) with filledcurve
 view(left, right, bottom, top) = sprintf("set size ratio -1; set xrange [%g:%g]; set yrange [%g:%g]; ", \
   left, right, bottom, top)."set xlabel x_label; set ylabel r_label"
 
-system("mkdir -p ".out."/".case." ".tables." && rm -f ".out."/".case."/*")
+system("mkdir -p ".quoted(pictures)." ".quoted(tables)." && cd ".quoted(pictures)." && rm -f *.svg *.png *.md")
 do for [format in "svg png"] {
   reset; eval defaults
-  load folder."/".case."/figure.gp"
+  load source."/figure.gp"
   unset output
 }
 # A caption with a number that is not there.
 set print "-"
-incomplete = system("grep -lwiE -- '-?nan' ".out."/".case."/*.md")
+incomplete = system("grep -lwiE -- '-?nan' ".quoted(pictures)."/*.md")
 if (incomplete ne "") { print "warning: a number is missing in ".incomplete }

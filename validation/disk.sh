@@ -9,7 +9,7 @@ capsule=$(realpath "$1")
 if [ $# -eq 1 ]; then # again, where mounts are seen by nobody else
   unshare --mount true 2>/dev/null && exec unshare --mount sh "$0" "$capsule" mounts
   unshare --map-root-user --mount true 2>/dev/null && exec unshare --map-root-user --mount sh "$0" "$capsule" mounts
-  echo 'skipped: no disk can be mounted here'
+  echo 'skipped: needs root, or namespaces of users, to mount a disk'
   exit 77
 fi
 place=$(mktemp -d)

@@ -18,7 +18,7 @@ TOML
 compiler=clang++
 if grep -q '"compiler": "Clang' first/viscosity_ratio=1/run.json; then compiler=g++; fi
 if ! command -v $compiler >/dev/null; then
-  echo "skipped: needs $compiler"
+  echo "skipped: needs the package $([ $compiler = g++ ] && echo g++ || echo clang)"
   exit 77
 fi
 cmake -G Ninja -S "$project" -B "$second" -DCMAKE_CXX_COMPILER=$compiler -DCMAKE_BUILD_TYPE=Release \

@@ -28,7 +28,7 @@ plot @wall, for [p in positions] for [side=-1:1:2] \
   for [p in positions] for [side=-1:1:2] \
     profiles(run(1)) using (at_x_g(p, "x")):(side * column("r")) with lines linetype 1
 rear = number(system(sprintf("awk -F, 'NR > 1 && ($2 - %.10g)^2 < 1e-12 && $3 == 0 {printf \"%%.16e\", $4}' %s", \
-  end(1, "x_g"), profiles(run(1)))))
+  end(1, "x_g"), quoted(profiles(run(1))))))
 set origin 0.49, 0; set size noratio 0.24, 1
 set xrange [rear - 0.005:rear + 0.035]; set yrange [-0.22:0.22]
 unset ylabel; set xtics 0.02; set ytics 0.1

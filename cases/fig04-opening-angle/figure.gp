@@ -5,7 +5,7 @@ last_x_g = result(run(1), "x_g")
 # The largest distance between two profiles at the same material points, in pore radii.
 difference(i, k) = number(system(sprintf("paste -d, %s %s | awk -F, 'NR == 1 {n = NF / 2} \
   NR > 1 && ($2 - %.10g)^2 < 1e-12 {d = ($4 - $(n + 4))^2 + ($5 - $(n + 5))^2; if (d > most) most = d} \
-  END {printf \"%%.16e\", sqrt(most)}'", profiles(run(i)), profiles(run(k)), last_x_g)))
+  END {printf \"%%.16e\", sqrt(most)}'", quoted(profiles(run(i))), quoted(profiles(run(k))), last_x_g)))
 
 eval figure("fig04", 8.6, 6)
 eval view(last_x_g - 1.2, last_x_g + 1.8, 0, 1.3)

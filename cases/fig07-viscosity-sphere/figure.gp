@@ -71,7 +71,7 @@ print "**Figure 7b.** Velocity of the centre of mass along the pore: the viscosi
   "not in the end.", distances_to_table2(velocities)
 
 # The position at t = 18.7, from the profile of that time.
-position(i) = number(system("awk -F, 'NR > 1 && ($1 - 18.7)^2 < 1e-12 {printf \"%.16e\", $2; exit}' ".profiles(run(i))))
+position(i) = number(system("awk -F, 'NR > 1 && ($1 - 18.7)^2 < 1e-12 {printf \"%.16e\", $2; exit}' ".quoted(profiles(run(i)))))
 published_position(i) = published(sprintf("F8-%g", lambda(i)))
 places = ""; marks = ""
 do for [i in timed] {

@@ -1,7 +1,7 @@
 name(i) = sprintf("{/:Italic A}/{/:Italic B} = %g", parameter(run(i), "capsule.aspect_ratio"))
 # When the centre of mass is at x_g, linear between the rows.
 time_at(i, x_g) = number(system(sprintf("awk -F, 'NR > 2 && $2 >= %.10g {printf \"%%.16e\", t + ($1 - t) * (%.10g - x) / ($2 - x); exit} {t = $1; x = $2}' %s", \
-  x_g, x_g, series(run(i)))))
+  x_g, x_g, quoted(series(run(i))))))
 
 eval figure("fig11", 12, 8)
 set xrange [0:32]; set yrange [-4:12]

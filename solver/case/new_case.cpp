@@ -2,21 +2,13 @@
 #include "base/atomic_file.hpp"
 #include "base/failure.hpp"
 #include "case/case_file.hpp"
-#include <algorithm>
-#include <cctype>
+#include "case/project.hpp"
 #include <fmt/format.h>
 
 namespace capsule {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_plain_name(const std::string &id) {
-  const auto allowed = [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
-  };
-  return !id.empty() && id[0] != '.' && id[0] != '-' && std::ranges::all_of(id, allowed);
-}
 
 void copy_files(const fs::path &from, const fs::path &to) {
   for (const auto &entry : fs::directory_iterator(from))
@@ -27,12 +19,9 @@ void copy_files(const fs::path &from, const fs::path &to) {
 } // namespace
 
 fs::path new_case(const fs::path &root, const std::string &id, const fs::path &like_what) {
-  if (!is_plain_name(id))
-    throw InputError(
-        fmt::format("{}:1:1: error: a case's name is made of letters, digits, '-', '_' and '.'\n", id));
+  if (const std::string complaint = name_complaint(root, id); !complaint.empty())
+    throw InputError(fmt::format("{}:1:1: error: {}\n", id, complaint));
   fs::path directory = root / "cases" / id;
-  if (fs::exists(directory))
-    throw InputError(fmt::format("{}:1:1: error: already exists\n", directory.string()));
   // A case of this project goes by its name.
   const fs::path like = fs::is_directory(like_what) ? like_what : root / "cases" / like_what;
   if (!fs::is_directory(like))

@@ -8,7 +8,7 @@ namespace capsule {
 // Copies the files of the case directory `like`, or of cases/<like> below `root`, to cases/<id> there and
 // returns that path. What
 // `inherit` names is looked for from the new place. Throws InputError if `like` is no valid case, if the id
-// is no plain name, if there is something at the new place, or if the copy is no valid case there; FileError.
+// is no name for a new case (project.hpp), or if the copy is no valid case there; FileError.
 std::filesystem::path new_case(const std::filesystem::path &root, const std::string &id,
                                const std::filesystem::path &like_what);
 

@@ -2,6 +2,9 @@
 #include "base/text.hpp"
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <fmt/format.h>
+#include <string_view>
 #include <vector>
 
 namespace capsule {
@@ -11,7 +14,44 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array folders{"cases", "validation"};
+// Of the project itself, as cmake/names.cmake has them; so are table1, table2 ...
+constexpr std::array taken_names{"benchmark", "branch", "ledger", "published", "runs", "steady"};
+constexpr std::size_t longest_name = 100;
 
+bool is_digit(unsigned char c) {
+  return std::isdigit(c) != 0;
+}
+
+bool is_plain_name(const std::string &name) {
+  const auto allowed = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
+  };
+  return !name.empty() && name[0] != '.' && name[0] != '-' && std::ranges::all_of(name, allowed);
+}
+
+bool is_taken_name(const std::string &name) {
+  constexpr std::string_view table = "table";
+  return std::ranges::find(taken_names, name) != taken_names.end() ||
+         (name.size() > table.size() && name.starts_with(table) &&
+          std::ranges::all_of(name.substr(table.size()), is_digit));
+}
+
+} // namespace
+
+std::string name_complaint(const fs::path &root, const std::string &name) {
+  if (!is_plain_name(name))
+    return "a case's name is made of letters, digits, '-', '_' and '.', and begins with neither '-' nor '.'";
+  if (name.size() > longest_name)
+    return fmt::format("a case's name has at most {} characters", longest_name);
+  if (is_taken_name(name))
+    return fmt::format("results/, figures/ or tables/ have another '{}'", name);
+  std::error_code ignored;
+  for (const char *folder : folders)
+    if (fs::exists(root / folder / name, ignored))
+      return fmt::format("{}/{} already exists", folder, name);
+  if (const auto stored = find_project_case(root, name))
+    return fmt::format("it is the name of '{}'", fs::relative(stored->file, root).string());
+  return "";
 }
 
 std::optional<ProjectCase> find_project_case(const fs::path &root, const std::string &name) {

@@ -13,6 +13,11 @@ struct ProjectCase {
   std::filesystem::path stored; // results kept with the sources; empty: they are computed
 };
 
+// Why a new case cannot be called so, or nothing: a name is of the letters, digits and signs that make a file, a target
+// of CMake and a test, is not one of the project's own in results/, figures/ or tables/, and belongs to no other case or
+// study, nor to results that are stored with one.
+std::string name_complaint(const std::filesystem::path &root, const std::string &name);
+
 // Nothing if there is no such case.
 std::optional<ProjectCase> find_project_case(const std::filesystem::path &root, const std::string &name);
 

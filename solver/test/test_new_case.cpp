@@ -4,6 +4,7 @@
 #include "case/new_case.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
+#include <fmt/format.h>
 
 using namespace capsule;
 
@@ -48,10 +49,22 @@ BOOST_AUTO_TEST_CASE(a_case_of_the_project_goes_by_its_name) {
 
 BOOST_AUTO_TEST_CASE(refused) {
   const Project project;
-  check_refused(project, "old", "cases/old", "cases/old:1:1: error: already exists");
+  check_refused(project, "old", "cases/old", "old:1:1: error: cases/old already exists");
   check_refused(project, "common.toml", "cases/old", "already exists");
   check_refused(project, "../new", "cases/old", "a case's name is made of");
   check_refused(project, "", "cases/old", "a case's name is made of");
+  for (const char *name : {"old (copy)", "a&b", "it's", "a\nb", "gr\u00f6\u00dfe", "-x", ".x", "a;b", "a/b"})
+    check_refused(project, name, "cases/old", "a case's name is made of");
+  check_refused(project, std::string(101, 'x'), "cases/old", "at most 100 characters");
+  for (const char *name :
+       {"benchmark", "branch", "ledger", "published", "runs", "steady", "table1", "table12"})
+    check_refused(project, name, "cases/old",
+                  fmt::format("results/, figures/ or tables/ have another '{}'", name));
+  // A study, and results that are stored with a case.
+  project.write("validation/study/study.cpp", "");
+  project.write("cases/old/mesh.toml", sphere);
+  check_refused(project, "study", "cases/old", "validation/study already exists");
+  check_refused(project, "old-mesh", "cases/old", "it is the name of 'cases/old/mesh.toml'");
   check_refused(project, "new", "cases/none", "cases/none:1:1: error: is not a case directory");
   check_refused(project, "new", "cases", "cases/case.toml:1:1: error: no such file");
   // From elsewhere the inherited file would be missing: nothing stays behind.

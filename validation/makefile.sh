@@ -1,0 +1,68 @@
+#!/bin/sh
+# What the Makefile does beyond CMake: a build directory that came with a copy of the tree, or was moved with it, is
+# configured anew and nothing is written where it came from; `make test` ends with the tests that were skipped; `make
+# sweep` takes the case's name as it is typed.
+#   sh validation/makefile.sh path/to/capsule
+. "$(dirname "$0")/lib/program.sh"
+make_in() { # DIRECTORY ARGUMENT...; what is said goes into log
+  (cd "$1" && shift && make "$@") >log 2>&1
+}
+mkdir -p first/sweep
+cp "$project/Makefile" "$project/CMakePresets.json" first
+cp -r "$project/cmake" first
+: >first/apt.txt # nothing to install
+cat >first/sweep/parallel.sh <<'SH'
+#!/bin/sh
+printf '<%s>' "$@" >swept
+SH
+chmod +x first/sweep/parallel.sh
+cat >first/CMakeLists.txt <<'CMAKE'
+cmake_minimum_required(VERSION 3.25)
+project(first LANGUAGES NONE)
+add_custom_target(capsule COMMAND ${CMAKE_COMMAND} -E touch built WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} VERBATIM)
+enable_testing()
+add_test(NAME good COMMAND sh -c "exit $GOOD")
+add_test(NAME rare COMMAND sh -c "echo 'skipped: needs the packages one-thing and another'; exit 77")
+add_test(NAME part COMMAND sh -c "echo 'skipped: needs the package one-thing'")
+set_tests_properties(rare PROPERTIES SKIP_RETURN_CODE 77)
+CMAKE
+
+make_in first || fail 'make'
+[ -e first/built ] || fail 'nothing is built'
+rm first/built
+cp -r first copy
+make_in copy || fail 'make in a copy'
+[ -e copy/built ] && [ ! -e first/built ] || fail 'a copy builds where it came from'
+make_in copy || fail 'make again'
+grep -q 'configured anew' log && fail 'a copy is configured each time'
+rm copy/built
+mv copy moved
+make_in moved || fail 'make in a tree that was moved'
+[ -e moved/built ] && [ ! -e copy ] || fail 'a tree that was moved builds where it came from'
+ln -s moved link
+make_in link || fail 'make by way of a link'
+grep -q 'configured anew' log && fail 'a link is taken for a copy'
+
+skipped_are_listed() { # by a line that fits each of these
+  for part in 'rare (needs the packages one-thing and another)' 'part (needs the package one-thing)' 'apt-get install one-thing another'; do
+    grep '^skipped: ' log | grep -qF "$part" || fail "the skipped tests are not listed: $part"
+  done
+}
+GOOD=0 make_in first test || fail 'make test'
+skipped_are_listed
+tail -n 1 log | grep -q '^skipped: ' || fail 'make test does not end with the skipped tests'
+GOOD=1 make_in first test && fail 'a test that fails is lost'
+skipped_are_listed
+
+mkdir first/cases
+for name in 'my case.toml' "it's (a) \$HOME & \`touch evil\`; touch evil #" '$(shell touch evil)' '100%'; do
+  : >"first/cases/$name"
+  make_in first sweep CASE="cases/$name" JOBS='1; touch evil' || fail "make sweep: $name"
+  [ "$(cat first/swept)" = "<cases/$name><1; touch evil>" ] || fail "not as it is typed: $(cat first/swept)"
+  make_in first sweep CASE="cases/not $name" && fail 'no such case, and swept'
+  grep -qF "CASE='cases/not $name' is no case" log || fail 'a case that is not there is not named'
+done
+make_in first sweep CASE='cases/my case.toml' SSH='one,two two,:' || fail 'make sweep'
+[ "$(cat first/swept)" = '<cases/my case.toml><100%><one,two two,:>' ] || fail "not as it is typed: $(cat first/swept)"
+[ ! -e first/evil ] || fail 'a name is executed'
+echo 'a copy is configured anew, skipped tests are listed, names are taken as they are typed'
