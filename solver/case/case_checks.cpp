@@ -1,7 +1,6 @@
 #include "case/case_checks.hpp"
 #include "base/text.hpp"
 #include "case/case.hpp"
-#include "case/keys.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,35 +11,20 @@ namespace {
 
 struct Checks {
   const Chosen &chosen;
-  Case &physics;
+  const Case &physics;
 
   void check_scheme() {
-    Case &c = physics;
-    const bool given_steps = c.time.scheme != Scheme::bdf;
-    const std::string unused = given_steps ? "time.tolerance" : "time.step";
-    // With a sweep over several schemes each key serves some of the runs.
-    if (chosen.given(unused) && !chosen.swept("time.scheme") && !chosen.swept("numerics"))
-      chosen.complain({unused},
-                      fmt::format("{} means nothing to time.scheme = {}", unused,
-                                  value_text(*get_value(*find_key("time.scheme"), c))),
-                      given_steps ? "give time.step" : "give time.tolerance, or an explicit time.scheme");
-    (given_steps ? c.time.tolerance : c.time.step) = 0;
-    if (given_steps && c.time.step == 0)
+    if (physics.time.scheme != Scheme::bdf && physics.time.step == 0)
       chosen.complain(
           {"time.scheme"}, "time.scheme = \"rk4\" needs a time.step",
           "the longest stable step is about 1.4 times that of \"euler\"; both fall with mesh.membrane");
   }
 
-  // Section 3 of the paper is one method for one flow, and alone in having elements on the exit section.
+  // Section 3 of the paper is one method for one flow.
   void check_numerics() {
-    Case &c = physics;
-    if (c.numerics == Numerics::standard) {
-      if (chosen.given("mesh.exit") && !chosen.swept("numerics"))
-        chosen.complain({"mesh.exit"}, "mesh.exit means nothing to numerics = \"standard\"",
-                        "leave out mesh.exit, or give numerics = \"paper\"");
-      c.mesh.exit = 0;
+    const Case &c = physics;
+    if (c.numerics == Numerics::standard)
       return;
-    }
     if (c.time.scheme != Scheme::euler)
       chosen.complain({"time.scheme", "numerics"}, "numerics = \"paper\" marches with Euler's scheme only",
                       "leave out time.scheme, or set it to \"euler\"");
@@ -69,10 +53,6 @@ struct Checks {
                       "leave out capsule.start_x, or set it to 0");
     if (!c.until.time)
       chosen.complain({"flow.type"}, "an extension needs until.time");
-    if (c.until.x_g || !c.output.profiles_at_x_g.empty())
-      chosen.complain({"until.x_g", "output.profiles_at_x_g"},
-                      "in an extension the capsule stays where it is",
-                      "use until.time and output.profiles_at_time");
   }
 
   // The undeformed capsule between the two end sections and inside the wall of eq. 1.
@@ -163,7 +143,7 @@ struct Checks {
 
 } // namespace
 
-void check_together(const Chosen &chosen, Case &physics, const Task &task) {
+void check_together(const Chosen &chosen, const Case &physics, const Task &task) {
   Checks{chosen, physics}.check(task);
 }
 

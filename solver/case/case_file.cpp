@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
+#include <set>
 
 namespace capsule {
 namespace {
@@ -28,9 +30,17 @@ std::vector<Selection> all_selections(const std::vector<Assignment> &assignments
   return selections;
 }
 
+// Which of the values that a case gives mean something to one of its runs, by the names of the keys, and what is to be said
+// of the others.
+struct Usage {
+  std::set<std::string> useful;
+  std::map<std::string, LocatedError> useless;
+};
+
 // One run while it is put together: what was given, where, and what follows.
 struct Builder {
   Chosen chosen;
+  const Task &task;
   RunInput run;
   std::vector<std::string> derived; // keys whose value follows from the physical ones
   bool physical_ok = true;          // no error in a physical key
@@ -56,14 +66,47 @@ struct Builder {
       const Value &value = assignment.values[chosen.selection[i]].value;
       if (set_value(*assignment.key, value, run.physics))
         stand_in(*assignment.key);
-      if (assignment.sweep) {
-        const auto *word = std::get_if<std::string>(&value);
-        const bool measured = std::holds_alternative<Measured>(assignment.key->field);
-        run.name += fmt::format("{}{}={}", run.name.empty() ? "" : ",", last_component(assignment.key->name),
-                                measured ? si_number(*assignment.key)
-                                : word   ? *word
-                                         : value_text(value));
+    }
+  }
+
+  // The shape that the flow asks for; what other keys mean follows from it.
+  void choose_shape() {
+    if (run.physics.flow.type == FlowType::extension && !chosen.stands("pore.shape", "flow.type"))
+      run.physics.pore.shape = PoreShape::none;
+  }
+
+  // Leaves out what means nothing to this run. That is no error where other runs use the value, nor where it is inherited
+  // and the key that decides is not.
+  void leave_out(Usage &usage) {
+    for (const Assignment &assignment : chosen.reader.assignments) {
+      const Key &key = *assignment.key;
+      if (means_something(key, run.physics)) {
+        usage.useful.insert(key.name);
+        continue;
       }
+      if (chosen.stands(key.name, key.scope.key) && chosen.stands(key.name, key.scope.decided_by))
+        usage.useless.try_emplace(key.name, LocatedError{chosen.given(key.name)->place,
+                                                         why_meaningless(key, run.physics),
+                                                         fmt::format("it belongs to {}", scope_text(key))});
+      reset_value(key, run.physics);
+    }
+  }
+
+  // By the swept values that make a difference.
+  void name_run() {
+    for (std::size_t i = 0; i < chosen.reader.assignments.size(); ++i) {
+      const Assignment &assignment = chosen.reader.assignments[i];
+      const Key &key = *assignment.key;
+      if (!assignment.sweep || !means_something(key, run.physics) ||
+          (!task.motion && key.steady == SteadyRole::none))
+        continue;
+      const Value &value = assignment.values[chosen.selection[i]].value;
+      const auto *word = std::get_if<std::string>(&value);
+      const bool measured = std::holds_alternative<Measured>(key.field);
+      run.name += fmt::format("{}{}={}", run.name.empty() ? "" : ",", last_component(key.name),
+                              measured ? si_number(key)
+                              : word   ? *word
+                                       : value_text(value));
     }
   }
 
@@ -122,11 +165,9 @@ struct Builder {
     if (c.time.scheme == Scheme::euler && !chosen.given("time.step"))
       c.time.step = 2.5e-4;
     if (c.flow.type == FlowType::extension) {
-      if (!chosen.given("pore.shape"))
-        c.pore.shape = PoreShape::none;
-      if (!chosen.given("capsule.radius"))
+      if (!chosen.stands("capsule.radius", "flow.type"))
         c.capsule.radius = 1;
-      if (!chosen.given("capsule.start_x"))
+      if (!chosen.stands("capsule.start_x", "flow.type"))
         c.capsule.start_x = 0;
     } else if (!c.until.x_g && !c.until.time)
       c.until.x_g = 11.84;
@@ -151,55 +192,87 @@ struct Builder {
   }
 };
 
-std::vector<RunInput> build_runs(CaseReader &reader, const Task &task) {
+// One of the cases that a case inherits from, or the case itself.
+struct Family {
+  CaseReader reader;
+  std::vector<RunInput> runs = {};
+  Usage usage = {};
+};
+
+void build_runs(Family &family, const Task &task) {
   constexpr std::size_t most_runs = 10000;
+  CaseReader &reader = family.reader;
   std::size_t count = 1;
   for (const Assignment &assignment : reader.assignments)
     count = std::min(count * assignment.values.size(), most_runs + 1);
   if (count > most_runs) {
     reader.complain({}, fmt::format("the sweeps make more than {} runs", most_runs));
-    return {};
+    return;
   }
   const bool valid = reader.text.errors.empty();
-  std::vector<RunInput> runs;
+  std::set<std::string> names;
   for (const Selection &selection : all_selections(reader.assignments)) {
-    Builder builder{{reader, selection}, {}, {}};
+    Builder builder{{reader, selection}, task, {}, {}};
+    Usage usage;
     builder.apply_preset();
     builder.take_values();
+    builder.choose_shape();
+    builder.leave_out(usage);
+    builder.name_run();
     builder.derive();
     builder.complete();
-    if (builder.has_required() && builder.physical_ok && valid)
+    if (builder.has_required() && builder.physical_ok && valid) {
       check_together(builder.chosen, builder.run.physics, task);
-    runs.push_back(std::move(builder.run));
+      family.usage.useful.merge(usage.useful);
+      family.usage.useless.merge(usage.useless);
+    }
+    // Swept values that mean nothing to a run would only make it again.
+    if (names.insert(builder.run.name).second)
+      family.runs.push_back(std::move(builder.run));
   }
-  return runs;
+}
+
+// `resolved`: what an earlier version wrote of keys that mean nothing is passed over.
+CaseInput read(const fs::path &path, const std::vector<std::string> &overrides, const Task &task,
+               bool resolved) {
+  CaseInput input;
+  input.file = case_file_of(path);
+  input.name = case_name_of(input.file);
+  std::vector<Family> families;
+  std::set<std::string> useful;
+  do {
+    Family &family = families.emplace_back();
+    family.reader.family = families.size() - 1;
+    read_case_file(family.reader, input.file);
+    for (const std::string &argument : overrides)
+      read_override(family.reader, argument);
+    if (family.reader.complete)
+      build_runs(family, task);
+    useful.merge(family.usage.useful);
+  } while (families.size() < families.front().reader.families.size());
+  for (Family &family : families) {
+    CaseReader &reader = family.reader;
+    for (const auto &[key, error] : family.usage.useless)
+      if (!resolved && !useful.contains(key))
+        reader.text.complain(error);
+    reader.text.throw_if_any();
+    for (RunInput &run : family.runs) {
+      if (!reader.families.empty())
+        run.name = reader.families[reader.family] + (run.name.empty() ? "" : ",") + run.name;
+      input.runs.push_back(std::move(run));
+    }
+  }
+  return input;
 }
 
 } // namespace
 
 CaseInput read_case(const fs::path &path, const std::vector<std::string> &overrides, const Task &task) {
-  CaseInput input;
-  input.file = case_file_of(path);
-  input.name = case_name_of(input.file);
-  std::size_t families = 1;
-  for (std::size_t i = 0; i < families; ++i) {
-    CaseReader reader;
-    reader.family = i;
-    read_case_file(reader, input.file);
-    for (const std::string &argument : overrides)
-      read_override(reader, argument);
-    std::vector<RunInput> runs;
-    if (reader.complete)
-      runs = build_runs(reader, task);
-    reader.text.throw_if_any();
-    for (RunInput &run : runs) {
-      if (!reader.families.empty())
-        run.name = reader.families[i] + (run.name.empty() ? "" : ",") + run.name;
-      input.runs.push_back(std::move(run));
-    }
-    families = std::max<std::size_t>(1, reader.families.size());
-  }
-  return input;
+  return read(path, overrides, task, false);
+}
+
+Case read_resolved(const fs::path &file, const Task &task) {
+  return read(file, {}, task, true).runs.at(0).physics;
 }
 
 } // namespace capsule

@@ -31,4 +31,7 @@ struct CaseInput {
 CaseInput read_case(const std::filesystem::path &path, const std::vector<std::string> &overrides = {},
                     const Task &task = {});
 
+// The input of a run, as it stands in its results. Throws InputError.
+Case read_resolved(const std::filesystem::path &file, const Task &task = {});
+
 } // namespace capsule

@@ -142,7 +142,7 @@ struct Flattener {
     else if (sweep && !can_be_swept(*key))
       reader.complain(place, fmt::format("'{}' cannot be swept", name));
     else
-      found.push_back({key, sweep, place, given_values(reader, source, *key, sweep, node)});
+      found.push_back({key, sweep, place, reader.level, given_values(reader, source, *key, sweep, node)});
   }
 
   // A misspelt section is one mistake: what it holds is read as if it had the right name.
@@ -275,6 +275,7 @@ void read_file(CaseReader &reader, const fs::path &file, std::vector<fs::path> &
   follow_inherit(reader, source, root, file, chain);
   chain.pop_back();
   collect(reader, source, root);
+  ++reader.level;
 }
 
 } // namespace
@@ -323,9 +324,13 @@ const GivenValue *Chosen::given(const std::string &name) const {
   return nullptr;
 }
 
-bool Chosen::swept(const std::string &name) const {
-  const auto same = [&](const Assignment &a) { return a.key->name == name && a.sweep; };
-  return std::ranges::any_of(reader.assignments, same);
+bool Chosen::stands(const std::string &name, const std::string &over) const {
+  const auto level = [&](const std::string &key) {
+    const auto found =
+        std::ranges::find(reader.assignments, key, [](const Assignment &a) { return a.key->name; });
+    return found == reader.assignments.end() ? -1 : static_cast<int>(found->level);
+  };
+  return given(name) != nullptr && level(name) >= level(over);
 }
 
 void Chosen::complain(const std::vector<std::string> &names, const std::string &message,

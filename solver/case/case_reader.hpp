@@ -20,6 +20,8 @@ struct Assignment {
   const Key *key = nullptr;
   bool sweep = false;
   TextPlace place;
+  std::size_t level =
+      0; // of what gave it: 0 is the file that inherits from none, --set stands above all files
   std::vector<GivenValue> values;
 };
 
@@ -27,6 +29,7 @@ struct Assignment {
 struct CaseReader {
   LocatedText text;
   std::vector<Assignment> assignments; // the inherited ones first
+  std::size_t level = 0;               // of what is being read
   bool complete = true;                // no file or --set had to be left out
   std::map<std::string, TextPlace> sections;
   std::vector<std::string> meant; // keys that unknown ones probably stand for
@@ -59,7 +62,8 @@ struct Chosen {
 
   // Null: not given.
   const GivenValue *given(const std::string &name) const;
-  bool swept(const std::string &name) const;
+  // Whether it was given, and not at a lower level than another key that its value would have to follow.
+  bool stands(const std::string &name, const std::string &over) const;
   // At the first of the keys that was given, or else at the file's beginning.
   void complain(const std::vector<std::string> &names, const std::string &message,
                 const std::string &hint = "") const;

@@ -14,7 +14,7 @@ template <class Wanted>
 std::string toml_of(const Case &physics, Wanted wanted) {
   std::string text, section;
   for (const Key &key : keys()) {
-    const auto value = wanted(key) ? get_value(key, physics) : std::nullopt;
+    const auto value = wanted(key) ? value_of(key, physics) : std::nullopt;
     if (!value)
       continue;
     if (section_of(key.name) != section) {
@@ -32,8 +32,6 @@ std::string what_counts(const Case &physics, const Task &task) {
   forget_spellings(in_si);
   return toml_of(in_si, [&](const Key &key) {
     if (key.name == "title" || key.name == "paper")
-      return false;
-    if (key.name == "accuracy" && physics.numerics == Numerics::paper) // its meshes and its step are given
       return false;
     return task.motion || key.steady != SteadyRole::none;
   });

@@ -7,10 +7,10 @@ namespace capsule {
 
 struct Case;
 
-// All keys of a run that are not chosen automatically, as a case file that gives the same run again.
+// All keys that mean something to a run and are not chosen automatically, as a case file that gives the same run again.
 std::string resolved_toml(const Case &physics);
 
-// Whether two inputs are the same to a task: whatever their title and, with the paper's numerics, their accuracy.
+// Whether two inputs are the same to a task, whatever their title.
 bool same_input(const Case &a, const Case &b, const Task &task = {});
 
 // 16 hexadecimal digits that name what is computed and written: equal for the same input to a program made of the same

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <type_traits>
 
 namespace capsule {
 namespace {
@@ -184,6 +185,19 @@ std::optional<Complaint> set_value(const Key &key, const Value &value, Case &phy
 
 std::optional<Value> get_value(const Key &key, const Case &physics) {
   return std::visit(Getter{key, physics}, key.field);
+}
+
+void reset_value(const Key &key, Case &physics) {
+  static const Case fresh;
+  const auto reset = [&](const auto &field) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Choice>)
+      field.set(physics, field.get(fresh));
+    else if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Measured>)
+      field.member.in(physics) = field.member.of(fresh);
+    else
+      field.in(physics) = field.of(fresh);
+  };
+  std::visit(reset, key.field);
 }
 
 std::string value_text(const Value &value) {

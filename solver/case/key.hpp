@@ -47,6 +47,13 @@ enum class SteadyRole {
   parameter // a number in its equations: branches go along it
 };
 
+// Where a key means something: with one of these values of another key. Without a key: everywhere.
+struct Scope {
+  std::string key;
+  std::vector<std::string> values;
+  std::string decided_by = {}; // the key that `key` follows unless it is given
+};
+
 struct Key {
   std::string name;    // "flow.capillary_number"
   std::string meaning; // with the paper's symbol
@@ -56,14 +63,18 @@ struct Key {
   std::string automatic = {};
   bool required = false;
   SteadyRole steady = SteadyRole::result;
+  Scope scope = {};
   std::vector<std::string> notes = {}; // for `capsule keys`, a line each
 };
 
 // Why the key cannot take a value, if it cannot.
 std::optional<Complaint> set_value(const Key &key, const Value &value, Case &physics);
 
-// No value: not given, chosen automatically. A quantity with its unit is a text, as it was typed.
+// No value: not given, chosen automatically. A quantity with its unit is a text, as it was typed. Whether the value means
+// something is up to value_of in keys.hpp.
 std::optional<Value> get_value(const Key &key, const Case &physics);
+// Back to the value of a fresh Case.
+void reset_value(const Key &key, Case &physics);
 // As TOML writes it.
 std::string value_text(const Value &value);
 // What is allowed, in words: "0 < value <= 90", "one of 'pore', 'extension'".

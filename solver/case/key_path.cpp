@@ -17,7 +17,7 @@ const Member<double> &real_member(const std::string &key) {
 } // namespace
 
 std::optional<double> number(const Key &key, const Case &input) {
-  const std::optional<Value> value = get_value(key, input);
+  const std::optional<Value> value = value_of(key, input);
   if (!value)
     return std::nullopt;
   if (const auto *whole = std::get_if<std::int64_t>(&*value))

@@ -3,6 +3,7 @@
 #include "law/law.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 
 namespace capsule {
@@ -44,6 +45,15 @@ Key parameter(Key key) {
   return key;
 }
 
+Key only_with(Scope scope, Key key) {
+  key.scope = std::move(scope);
+  return key;
+}
+
+Key in_a_pore(Key key) {
+  return only_with({"flow.type", {"pore"}}, std::move(key));
+}
+
 std::vector<Key> general_keys() {
   return {
       {"title", "one line about the case", member<std::string>(CAPSULE_AT(title)), any_number,
@@ -52,7 +62,8 @@ std::vector<Key> general_keys() {
        any_number, "none"},
       {"numerics", "preset: the best we have, or section 3 of the paper to the letter",
        choice<Numerics>(CAPSULE_AT(numerics), {"standard", "paper"}), any_number},
-      {"accuracy", "relative error asked for", member<double>(CAPSULE_AT(accuracy)), from_to(1e-8, 1e-2)},
+      only_with({"numerics", {"standard"}}, {"accuracy", "relative error asked for",
+                                             member<double>(CAPSULE_AT(accuracy)), from_to(1e-8, 1e-2)}),
   };
 }
 
@@ -61,12 +72,13 @@ std::vector<Key> pore_keys() {
       of_motion({"pore.shape", "hyperbolic mouth and tube; tube without a mouth; none: unbounded liquid",
                  choice<PoreShape>(CAPSULE_AT(pore.shape), {"hyperbolic", "tube", "none"}), any_number,
                  "hyperbolic; none with flow.type = \"extension\""}),
-      of_motion({"pore.opening_angle_deg", "opening angle of the mouth, alpha of eq. 1, degrees",
-                 member<double>(CAPSULE_AT(pore.opening_angle_deg)), above_up_to(0, 90)}),
-      of_motion({"pore.exit_x", "position of the exit section, L_P", member<double>(CAPSULE_AT(pore.exit_x)),
-                 above_up_to(0, 1000)}),
-      of_motion({"pore.entrance_distance", "distance of the entrance section, L_E",
-                 member<double>(CAPSULE_AT(pore.entrance_distance)), above_up_to(1, 1000)}),
+      of_motion(only_with({"pore.shape", {"hyperbolic"}, "flow.type"},
+                          {"pore.opening_angle_deg", "opening angle of the mouth, alpha of eq. 1, degrees",
+                           member<double>(CAPSULE_AT(pore.opening_angle_deg)), above_up_to(0, 90)})),
+      of_motion(in_a_pore({"pore.exit_x", "position of the exit section, L_P",
+                           member<double>(CAPSULE_AT(pore.exit_x)), above_up_to(0, 1000)})),
+      of_motion(in_a_pore({"pore.entrance_distance", "distance of the entrance section, L_E",
+                           member<double>(CAPSULE_AT(pore.entrance_distance)), above_up_to(1, 1000)})),
   };
 }
 
@@ -92,8 +104,9 @@ std::vector<Key> law_parameter_keys() {
       const auto at = [place = found.size()](auto &c) -> auto & {
         return c.membrane.law.all_values()[place];
       };
-      found.push_back(parameter(
-          {std::string("membrane.") + declared.name, declared.meaning, member<double>(at), declared.range}));
+      found.push_back(only_with({"membrane.law", {law->name}},
+                                parameter({std::string("membrane.") + declared.name, declared.meaning,
+                                           member<double>(at), declared.range})));
     }
   return found;
 }
@@ -143,10 +156,11 @@ std::vector<Key> mesh_keys() {
   return {
       {"mesh.membrane", "elements or nodes of the membrane, N_M", member<int>(CAPSULE_AT(mesh.membrane)),
        from_to(4, 10000), of_accuracy + "; 60 with numerics = \"paper\""},
-      {"mesh.wall", "elements of the wall, N_B", member<int>(CAPSULE_AT(mesh.wall)), from_to(4, 10000),
-       of_accuracy + "; 120 with numerics = \"paper\""},
-      of_motion({"mesh.exit", "elements of the exit section, N_P", member<int>(CAPSULE_AT(mesh.exit)),
-                 from_to(2, 10000), "30 with numerics = \"paper\", otherwise without meaning"}),
+      in_a_pore({"mesh.wall", "elements of the wall, N_B", member<int>(CAPSULE_AT(mesh.wall)),
+                 from_to(4, 10000), of_accuracy + "; 120 with numerics = \"paper\""}),
+      of_motion(
+          only_with({"numerics", {"paper"}}, {"mesh.exit", "elements of the exit section, N_P",
+                                              member<int>(CAPSULE_AT(mesh.exit)), from_to(2, 10000), "30"})),
   };
 }
 
@@ -157,18 +171,21 @@ std::vector<Key> time_keys() {
                  "error-controlled BDF; explicit Euler or Runge-Kutta of order 4 with a given step",
                  choice<Scheme>(CAPSULE_AT(time.scheme), {"bdf", "euler", "rk4"}), any_number,
                  "bdf; euler with numerics = \"paper\""}),
-      of_motion({"time.step", "step of an explicit scheme", member<double>(CAPSULE_AT(time.step)), above(0),
-                 "2.5e-4 with time.scheme = \"euler\", required with \"rk4\""}),
-      of_motion({"time.tolerance", "absolute error of the nodes' positions in one step, in units of R_t",
-                 member<double>(CAPSULE_AT(time.tolerance)), from_to(1e-13, 1e-2), of_accuracy}),
+      of_motion(only_with({"time.scheme", {"euler", "rk4"}, "numerics"},
+                          {"time.step", "step of an explicit scheme", member<double>(CAPSULE_AT(time.step)),
+                           above(0), "2.5e-4 with time.scheme = \"euler\", required with \"rk4\""})),
+      of_motion(
+          only_with({"time.scheme", {"bdf"}, "numerics"},
+                    {"time.tolerance", "absolute error of the nodes' positions in one step, in units of R_t",
+                     member<double>(CAPSULE_AT(time.tolerance)), from_to(1e-13, 1e-2), of_accuracy})),
   };
 }
 
 std::vector<Key> until_keys() {
   return {
-      of_motion({"until.x_g", "stop when the centre of mass is here",
-                 member<std::optional<double>>(CAPSULE_AT(until.x_g)), any_number,
-                 "11.84, unless until.time is given"}),
+      of_motion(in_a_pore({"until.x_g", "stop when the centre of mass is here",
+                           member<std::optional<double>>(CAPSULE_AT(until.x_g)), any_number,
+                           "11.84, unless until.time is given"})),
       of_motion({"until.time", "stop at this time", member<std::optional<double>>(CAPSULE_AT(until.time)),
                  above(0), "none"}),
   };
@@ -176,32 +193,34 @@ std::vector<Key> until_keys() {
 
 std::vector<Key> physical_keys() {
   return {
-      {"physical.tube_radius", "R_t with its unit; with this section results come in SI units too",
-       measured(CAPSULE_AT(physical.tube_radius), dimension::length)},
-      {"physical.viscosity", "of the external liquid, mu",
-       measured(CAPSULE_AT(physical.viscosity), dimension::viscosity)},
-      {"physical.flow_rate", "Q", measured(CAPSULE_AT(physical.flow_rate), dimension::flow_rate)},
-      {"physical.pressure", "instead of Q: drop over the mouth and a tube of pore_length without a capsule",
-       measured(CAPSULE_AT(physical.pressure), dimension::pressure)},
-      {"physical.pore_length", "of the tube that the pressure drives the liquid through",
-       measured(CAPSULE_AT(physical.pore_length), dimension::length)},
-      {"physical.shear_modulus", "surface shear modulus, G",
-       measured(CAPSULE_AT(physical.shear_modulus), dimension::tension)},
-      {"physical.young_modulus", "instead of G: surface Young modulus at small strain, E_s",
-       measured(CAPSULE_AT(physical.young_modulus), dimension::tension)},
-      {"physical.bending_modulus", "D, instead of membrane.bending_ratio",
-       measured(CAPSULE_AT(physical.bending_modulus), dimension::energy)},
-      {"physical.capsule_radius", "of the sphere of the same volume, instead of capsule.radius",
-       measured(CAPSULE_AT(physical.capsule_radius), dimension::length)},
-      {"physical.internal_viscosity", "instead of flow.viscosity_ratio",
-       measured(CAPSULE_AT(physical.internal_viscosity), dimension::viscosity)},
+      in_a_pore({"physical.tube_radius", "R_t with its unit; with this section results come in SI units too",
+                 measured(CAPSULE_AT(physical.tube_radius), dimension::length)}),
+      in_a_pore({"physical.viscosity", "of the external liquid, mu",
+                 measured(CAPSULE_AT(physical.viscosity), dimension::viscosity)}),
+      in_a_pore({"physical.flow_rate", "Q", measured(CAPSULE_AT(physical.flow_rate), dimension::flow_rate)}),
+      in_a_pore({"physical.pressure",
+                 "instead of Q: drop over the mouth and a tube of pore_length without a capsule",
+                 measured(CAPSULE_AT(physical.pressure), dimension::pressure)}),
+      in_a_pore({"physical.pore_length", "of the tube that the pressure drives the liquid through",
+                 measured(CAPSULE_AT(physical.pore_length), dimension::length)}),
+      in_a_pore({"physical.shear_modulus", "surface shear modulus, G",
+                 measured(CAPSULE_AT(physical.shear_modulus), dimension::tension)}),
+      in_a_pore({"physical.young_modulus", "instead of G: surface Young modulus at small strain, E_s",
+                 measured(CAPSULE_AT(physical.young_modulus), dimension::tension)}),
+      in_a_pore({"physical.bending_modulus", "D, instead of membrane.bending_ratio",
+                 measured(CAPSULE_AT(physical.bending_modulus), dimension::energy)}),
+      in_a_pore({"physical.capsule_radius", "of the sphere of the same volume, instead of capsule.radius",
+                 measured(CAPSULE_AT(physical.capsule_radius), dimension::length)}),
+      in_a_pore({"physical.internal_viscosity", "instead of flow.viscosity_ratio",
+                 measured(CAPSULE_AT(physical.internal_viscosity), dimension::viscosity)}),
   };
 }
 
 std::vector<Key> output_keys() {
   return {
-      of_motion({"output.profiles_at_x_g", "positions at which the profile is written",
-                 member<std::vector<double>>(CAPSULE_AT(output.profiles_at_x_g)), any_number, "none"}),
+      of_motion(
+          in_a_pore({"output.profiles_at_x_g", "positions at which the profile is written",
+                     member<std::vector<double>>(CAPSULE_AT(output.profiles_at_x_g)), any_number, "none"})),
       of_motion({"output.profiles_at_time", "times at which the profile is written",
                  member<std::vector<double>>(CAPSULE_AT(output.profiles_at_time)), at_least(0), "none"}),
   };
@@ -227,6 +246,28 @@ const std::vector<Key> &keys() {
 const Key *find_key(const std::string &name) {
   const auto found = std::ranges::find(keys(), name, &Key::name);
   return found == keys().end() ? nullptr : &*found;
+}
+
+bool means_something(const Key &key, const Case &physics) {
+  if (key.scope.key.empty())
+    return true;
+  const std::string decided = std::get<std::string>(*get_value(*find_key(key.scope.key), physics));
+  return std::ranges::find(key.scope.values, decided) != key.scope.values.end();
+}
+
+std::string why_meaningless(const Key &key, const Case &physics) {
+  return fmt::format("{} means nothing to {} = {}", key.name, key.scope.key,
+                     value_text(*get_value(*find_key(key.scope.key), physics)));
+}
+
+std::string scope_text(const Key &key) {
+  std::vector<std::string> values;
+  std::ranges::transform(key.scope.values, std::back_inserter(values), value_text);
+  return values.empty() ? "" : fmt::format("{} = {}", key.scope.key, fmt::join(values, " or "));
+}
+
+std::optional<Value> value_of(const Key &key, const Case &physics) {
+  return means_something(key, physics) ? get_value(key, physics) : std::nullopt;
 }
 
 void forget_spellings(Case &physics) {

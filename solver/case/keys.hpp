@@ -2,6 +2,7 @@
 // The keys of a case file, each declared once. Reading, validation, `capsule keys`, `capsule show`, resolved.toml, --set,
 // sweeps and branches all follow from this table. Throws nothing.
 #include "case/key.hpp"
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,15 @@ namespace capsule {
 
 const std::vector<Key> &keys();
 const Key *find_key(const std::string &name);
+
+// Whether the key means something to a case, and why not: `pore.exit_x means nothing to flow.type = "extension"`.
+bool means_something(const Key &key, const Case &physics);
+std::string why_meaningless(const Key &key, const Case &physics);
+// Where it means something: `time.scheme = "euler" or "rk4"`; empty: everywhere.
+std::string scope_text(const Key &key);
+
+// The value, unless it was not given, is chosen automatically, or means nothing to the case.
+std::optional<Value> value_of(const Key &key, const Case &physics);
 
 // From now on all quantities stand in SI units, the same ones for "5 um" and "5e-3 mm".
 void forget_spellings(Case &physics);

@@ -51,8 +51,6 @@ bool has_physical(const Case &physics) {
 std::vector<PhysicalComplaint> physical_complaints(const Case &physics) {
   const auto &p = physics.physical;
   std::vector<PhysicalComplaint> complaints;
-  if (physics.flow.type != FlowType::pore)
-    complaints.push_back({"physical units go with a pore: flow.type must be \"pore\"", {"flow.type"}});
   const auto require = [&](const Quantity &quantity, const std::string &key) {
     if (quantity.si == 0)
       complaints.push_back({"missing key '" + key + "'", {}});

@@ -38,7 +38,7 @@ bool has_value(const Case &physics, const Key &key, const std::string &text) {
     const auto si = quantity != nullptr ? quantity->si : to_number(text);
     return si && *si == measured->member.of(physics).si;
   }
-  const auto value = get_value(key, physics);
+  const auto value = value_of(key, physics);
   if (!value)
     return false;
   if (const auto *word = std::get_if<std::string>(&*value))

@@ -32,14 +32,14 @@ bool is_left_over(const fs::path &file) {
 }
 
 Case input_of(const fs::path &directory, const Task &task) {
-  return read_case(directory / "resolved.toml", {}, task).runs.at(0).physics;
+  return read_resolved(directory / "resolved.toml", task);
 }
 
 // Where the first differs from the second: "flow.viscosity_ratio = 1, no until.time".
 std::string what_differs(const Case &first, const Case &second) {
   std::string text;
   for (const Key &key : keys()) {
-    const auto value = get_value(key, first), instead = get_value(key, second);
+    const auto value = value_of(key, first), instead = value_of(key, second);
     if (key.name == "title" || key.name == "paper" ||
         (value ? value_text(*value) : "") == (instead ? value_text(*instead) : ""))
       continue;

@@ -109,7 +109,7 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
     resolved.time.tolerance = chosen.time_tolerance;
   json["parameters"] = Json::object();
   for (const Key &key : keys()) {
-    const auto value = get_value(key, resolved);
+    const auto value = value_of(key, resolved);
     json["parameters"][key.name] = value ? to_json(*value) : Json();
   }
   return json.dump(2) + "\n";

@@ -317,6 +317,10 @@ ExitCode list_keys() {
     const std::string here = key.name.substr(0, key.name.find('.'));
     fmt::print("{}{:<28}{}\n{:<28}default: {}; allowed: {}\n", here == section ? "" : "\n", key.name,
                key.meaning, "", default_text(key), allowed_text(key));
+    if (!key.scope.key.empty())
+      fmt::print("{:<28}only with {}\n", "", scope_text(key));
+    for (const std::string &note : key.notes)
+      fmt::print("{:<28}{}\n", "", note);
     section = here;
   }
   fmt::print("\n{:<26}values of another case file, relative to this one, that this one overrides;\n"

@@ -161,6 +161,9 @@ void require_branch(const Case &input, const std::string &key, double to) {
                                  near.empty() ? "" : fmt::format("did you mean '{}'? ", near),
                                  fmt::join(names, ", ")));
   }
+  if (!means_something(*find_key(key), input))
+    throw InputError(
+        fmt::format("error: no branch along '{}': {}\n", key, why_meaningless(*find_key(key), input)));
   Case there = input;
   if (const auto complaint = set_value(*find_key(key), to, there))
     throw InputError(fmt::format("error: --to {}: {}\n{}\n", number_text(to), complaint->message,

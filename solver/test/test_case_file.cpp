@@ -10,6 +10,7 @@
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cstring>
+#include <fmt/format.h>
 #include <set>
 #include <unistd.h>
 
@@ -194,8 +195,10 @@ BOOST_AUTO_TEST_CASE(identity_knows_what_counts) {
   };
   BOOST_TEST(identity({}).size() == 16u);
   BOOST_TEST(identity({}) == identity({"title=other", "paper=Figure 7", "flow.viscosity_ratio=1"}));
-  // The paper's preset chooses nothing by the accuracy.
-  BOOST_TEST(identity({"numerics=paper"}) == identity({"numerics=paper", "accuracy=1e-5"}));
+  // An accuracy that is inherited means nothing to the paper's preset.
+  const auto precise = directory.write("b.toml", "accuracy = 1e-6\n" + sphere);
+  BOOST_TEST(run_identity(read_case(precise, {"numerics=paper"}).runs.at(0).physics) ==
+             identity({"numerics=paper"}));
   BOOST_TEST(identity({"numerics=paper"}) != identity({"numerics=paper", "mesh.exit=5"}));
   // Every key that is not a title makes another run.
   const std::vector<std::string> changes{"numerics=paper",
@@ -208,6 +211,7 @@ BOOST_AUTO_TEST_CASE(identity_knows_what_counts) {
                                          "capsule.aspect_ratio=0.9",
                                          "capsule.start_x=-5",
                                          "membrane.law=neo-hookean",
+                                         "membrane.law=evans-skalak",
                                          "membrane.dilatation=1",
                                          "membrane.bending_ratio=0",
                                          "flow.capillary_number=0.0400000000000001",
@@ -560,8 +564,103 @@ BOOST_AUTO_TEST_CASE(geometry_that_cannot_be) {
   check_contains(message({"numerics=paper", "flow.type=extension", "until.time=1"}),
                  "--set:1:11: error: numerics = \"paper\" computes no unbounded liquid");
   check_contains(message({"flow.type=extension"}), "--set:1:11: error: an extension needs until.time");
-  check_contains(message({"flow.type=extension", "until.time=1"}),
-                 ":3:10: error: in an extension lengths are scaled");
+  check_contains(message({"flow.type=extension", "until.time=1", "capsule.radius=0.9"}),
+                 "--set:1:16: error: in an extension lengths are scaled");
+}
+
+// A value that could make no difference would make a new name for the same run.
+BOOST_AUTO_TEST_CASE(keys_that_mean_nothing) {
+  const TemporaryDirectory directory;
+  const auto file = directory.write("case.toml", sphere);
+  const auto message = [&](const std::vector<std::string> &overrides) { return message_of(file, overrides); };
+  struct Scene {
+    std::vector<std::string> set;
+    std::vector<std::pair<std::string, std::string>> refused; // the key, and what it means nothing to
+  };
+  for (const Scene &scene :
+       {Scene{{"pore.shape=tube"}, {{"pore.opening_angle_deg=45", "pore.shape = \"tube\""}}},
+        Scene{{"flow.type=extension", "until.time=1"},
+              {{"pore.opening_angle_deg=45", "pore.shape = \"none\""},
+               {"pore.exit_x=20", "flow.type = \"extension\""},
+               {"pore.entrance_distance=20", "flow.type = \"extension\""},
+               {"mesh.wall=100", "flow.type = \"extension\""},
+               {"until.x_g=3", "flow.type = \"extension\""},
+               {"output.profiles_at_x_g=[1]", "flow.type = \"extension\""},
+               {"physical.tube_radius='5 um'", "flow.type = \"extension\""}}},
+        Scene{{"membrane.law=neo-hookean"},
+              {{"membrane.dilatation=1", "membrane.law = \"neo-hookean\""},
+               {"membrane.psi=0.5", "membrane.law = \"neo-hookean\""}}},
+        Scene{{"membrane.law=mooney-rivlin"},
+              {{"membrane.dilatation=1", "membrane.law = \"mooney-rivlin\""}}},
+        Scene{{"numerics=paper"},
+              {{"accuracy=1e-3", "numerics = \"paper\""},
+               {"time.tolerance=1e-7", "time.scheme = \"euler\""}}}}) {
+    BOOST_TEST(message(scene.set) == "no error");
+    for (const auto &[value, to] : scene.refused) {
+      std::vector<std::string> set = scene.set;
+      set.push_back(value);
+      const std::string key = value.substr(0, value.find('='));
+      check_contains(message(set),
+                     fmt::format("--set:1:{}: error: {} means nothing to {}", key.size() + 2, key, to));
+      BOOST_TEST(count_of(message(set), "error:") == 1u);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(inherited_values_that_mean_nothing) {
+  const TemporaryDirectory directory;
+  directory.write("common.toml", sphere +
+                                     "[pore]\nshape = 'hyperbolic'\nopening_angle_deg = 45\nexit_x = 20\n"
+                                     "[until]\nx_g = 3\n[output]\nprofiles_at_x_g = [1]\n");
+  const auto identity = [&](const std::string &content, const std::vector<std::string> &overrides = {}) {
+    const auto file = directory.write("case.toml", content);
+    return run_identity(read_case(file, overrides).runs.at(0).physics);
+  };
+  const std::string common = "inherit = 'common.toml'\n";
+  const std::string rubber =
+      "capsule.radius = 0.9\nmembrane.law = 'neo-hookean'\nflow.capillary_number = 0.04\n";
+  // The shape, the law and the flow are the file's own: what it inherits for others is left out.
+  BOOST_TEST(
+      identity(common + "pore.shape = 'tube'\n") ==
+      identity(sphere +
+               "[pore]\nshape = 'tube'\nexit_x = 20\n[until]\nx_g = 3\n[output]\nprofiles_at_x_g = [1]\n"));
+  BOOST_TEST(identity(common + "membrane.law = 'neo-hookean'\n") ==
+             identity(rubber + "pore.opening_angle_deg = 45\npore.exit_x = 20\nuntil.x_g = 3\n"
+                               "output.profiles_at_x_g = [1]\n"));
+  const std::string extension = "flow.type = 'extension'\nuntil.time = 1\n";
+  BOOST_TEST(identity(common + extension) ==
+             identity("membrane.law = 'skalak'\nmembrane.dilatation = 0\nflow.capillary_number = 0.04\n" +
+                      extension));
+  // Its own values are refused, also where the law is inherited.
+  check_contains(message_of(directory.write("case.toml", common + "membrane.psi = 0.5\n")),
+                 "case.toml:2:16: error: membrane.psi means nothing to membrane.law = \"skalak\"");
+  // What stands above a file in --set is no better than in the file.
+  check_contains(
+      message_of(directory.write("case.toml", common), {"membrane.dilatation=2", "membrane.law=neo-hookean"}),
+      "--set:1:21: error: membrane.dilatation means nothing");
+}
+
+BOOST_AUTO_TEST_CASE(values_that_serve_some_of_the_runs) {
+  const TemporaryDirectory directory;
+  const std::string radius = "capsule.radius = 0.9\nflow.capillary_number = 0.04\n";
+  const std::string laws = "sweep.'membrane.law' = ['neo-hookean', 'skalak', 'mooney-rivlin']\n";
+  const auto names = [&](const std::string &content, const Task &task = {}) {
+    std::string all;
+    for (const RunInput &run : read_case(directory.write("case.toml", radius + content), {}, task).runs)
+      all += run.name + ";";
+    return all;
+  };
+  BOOST_TEST(names(laws + "membrane.dilatation = 2\n") == "law=neo-hookean;law=skalak;law=mooney-rivlin;");
+  // A swept value makes a run of those laws that know it only.
+  BOOST_TEST(names(laws + "sweep.'membrane.dilatation' = [0, 1]\n") ==
+             "law=neo-hookean;law=skalak,dilatation=0;law=skalak,dilatation=1;law=mooney-rivlin;");
+  check_contains(
+      message_of(directory.write("case.toml", radius + laws + "membrane.area_modulus = 2\n")),
+      "case.toml:4:25: error: membrane.area_modulus means nothing to membrane.law = \"neo-hookean\"");
+  // Where a motion starts makes no second steady state.
+  const std::string starts = "membrane.law = 'skalak'\nsweep.'capsule.start_x' = [-4, -5]\n";
+  BOOST_TEST(names(starts) == "start_x=-4;start_x=-5;");
+  BOOST_TEST(names(starts, {.motion = false, .name = "steady"}) == ";");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -203,7 +203,7 @@ std::vector<Point> paper_points(const Scene &scene) {
         fs::directory_iterator(parent), {}, std::back_inserter(directories),
         [](const fs::path &entry) { return fs::is_directory(entry); }); // beside them: the list of runs
   for (const fs::path &directory : directories) {
-    const Case physics = read_case(directory / "resolved.toml").runs.front().physics;
+    const Case physics = read_resolved(directory / "resolved.toml");
     const StudyRun run = read_run(directory);
     const Dynamics dynamics = make_dynamics(physics);
     Point point;
