@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(without_an_end_only_profiles_are_due) {
 BOOST_AUTO_TEST_CASE(from_a_later_place_the_rest_is_due) {
   const std::vector<double> profiles{-3.31, -2, 0.2500000001, 1.7};
   const std::vector<Station> whole = stations(-4, 0.05, 2.03, profiles);
-  for (const double place : {-3.99, -2.0, -0.01, 0.2500000001, 1.99}) {
+  for (const double place : {-3.94, -2.0, -0.01, 0.2500000001, 1.99}) {
     const std::vector<Station> rest = stations(place, 0.05, 2.03, profiles);
     std::size_t k = whole.size() - rest.size();
     BOOST_TEST(whole[k].value > place);
