@@ -2,6 +2,7 @@
 #include "base/failure.hpp"
 #include "geometry/node_density.hpp"
 #include "steady/newton.hpp"
+#include "steady/slopes.hpp"
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
@@ -58,17 +59,6 @@ void Branch::balance() {
   step_ = std::min(step_ * stretched, steps_.largest); // to the same point as before, if allowed
 }
 
-// d residual/d parameter by central differences: the residual is smooth in it, the error about 1e-9.
-Vector Branch::parameter_slope(const BranchPoint &at) const {
-  constexpr double h = 1e-5;
-  system_->set_parameters(path_.at(at.parameter + h));
-  const Vector above = system_->residual(at.unknowns);
-  system_->set_parameters(path_.at(at.parameter - h));
-  const Vector below = system_->residual(at.unknowns);
-  system_->set_parameters(path_.at(at.parameter));
-  return (above - below) / (2 * h);
-}
-
 // The point at a length `step` along the tangent, from a guess that bends away from it.
 Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
                                   double tolerance, const Vector &curvature) const {
@@ -85,9 +75,10 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     system_->set_parameters(path_.at(now.parameter));
     system_->fit_tube(now.unknowns);
-    if (before > small_correction)
-      slope = parameter_slope(now);
     const SteadySystem::Linearisation linear = system_->linearise(now.unknowns);
+    if (before > small_correction)
+      slope = path_.slope(now.parameter) *
+              slopes(*system_, now.unknowns, linear, std::span(&path_.key(), 1)).col(0);
     Matrix bordered(m + 1, m + 1);
     bordered << linear.jacobian, slope, row.transpose();
     Vector right = Vector::Zero(m + 1);

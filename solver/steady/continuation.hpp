@@ -62,7 +62,6 @@ private:
   Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
                     const Vector &curvature) const;
   Vector curvature() const;
-  Vector parameter_slope(const BranchPoint &at) const;
   double weighted(const Vector &a, const Vector &b) const;
   double along_tangent_before(const BranchPoint &at) const;
   Vector bend_towards(const BranchPoint &end) const;
