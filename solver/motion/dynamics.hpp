@@ -8,12 +8,14 @@
 
 namespace capsule {
 
+struct Case;
+
 struct Dynamics {
   std::shared_ptr<const Scene> scene;
   // Throw NumericsFailure when the shape is no capsule in the pore any more.
   std::function<FlowState(const Vector &position)> flow;
-  // The same with the second route to the pressure drop, and without a trace in later flows. Reports of regular
-  // rows speed each other up; those of any others change no digit of them.
+  // The same with the second route to the pressure drop. Later flows do not depend on it. Reports of regular rows speed
+  // each other up; reports of other rows change no digit of them.
   std::function<FlowState(const Vector &position, bool regular)> report;
   // Only of the standard preset: d velocity/d position with frozen hydrodynamic mobility and the exact
   // derivative of the membrane's load.

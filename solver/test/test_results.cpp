@@ -3,6 +3,7 @@
 #include "base/json_file.hpp"
 #include "case/case_file.hpp"
 #include "case/identity.hpp"
+#include "output/checkpoint.hpp"
 #include "output/results.hpp"
 #include "output/summary.hpp"
 #include "random_checkpoint.hpp"
