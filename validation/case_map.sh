@@ -6,6 +6,7 @@ capsule=$(realpath "$1")
 cd "$(dirname "$0")/.."
 failures=0
 for directory in cases/*/; do
+  [ -e "$directory/case.toml" ] || continue
   id=$(basename "$directory")
   paper=$(sed -n 's/^paper = "\(.*\)"$/\1/p' "cases/$id/case.toml")
   runs=$("$capsule" show "cases/$id" | sed -n 's/^# \([0-9]*\) runs*, .*/\1/p')
