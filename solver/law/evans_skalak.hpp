@@ -1,6 +1,6 @@
 #pragma once
 // The law of Evans and Skalak: shear and a change of area resist each on its own.
-#include "law/law.hpp"
+#include "law/strain_energy.hpp"
 
 namespace capsule {
 

@@ -5,7 +5,6 @@
 // parameters and all that depends on the law follow from the table.
 // w, w_a and w_b keep their relative accuracy at small strains: what vanishes in the undeformed state is written as a
 // product. Throws nothing; both stretches must be positive.
-#include "base/range.hpp"
 #include "law/strain_energy.hpp"
 #include <cstddef>
 #include <initializer_list>
@@ -14,27 +13,6 @@
 #include <vector>
 
 namespace capsule {
-
-struct LawParameter {
-  const char *name; // the key is "membrane.<name>"
-  const char *symbol;
-  const char *meaning;
-  double initial; // unless it is given
-  Range range;
-};
-
-// Values of a law's parameters, in the order in which it declares them.
-using LawValues = std::span<const double>;
-
-struct Law {
-  const char *name;    // in case files: "neo-hookean"
-  const char *title;   // in sentences: "neo-Hookean"
-  const char *formula; // of w, with a and b for the stretches
-  std::span<const LawParameter> parameters;
-  StrainEnergy (*energy)(LawValues values, double a, double b);
-  // Two-dimensional Poisson ratio of small strains, nu of eq. 6.
-  double (*poisson_ratio)(LawValues values);
-};
 
 std::span<const Law *const> laws();
 

@@ -1,6 +1,6 @@
 #pragma once
 // The Mooney-Rivlin law: an incompressible rubber that hardens as the neo-Hookean one, Psi = 1, does not.
-#include "law/law.hpp"
+#include "law/strain_energy.hpp"
 
 namespace capsule {
 

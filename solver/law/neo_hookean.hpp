@@ -1,6 +1,6 @@
 #pragma once
 // The neo-Hookean law, eq. 4: an incompressible rubber whose thickness yields as its area grows.
-#include "law/law.hpp"
+#include "law/strain_energy.hpp"
 
 namespace capsule {
 
