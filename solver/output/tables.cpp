@@ -7,16 +7,10 @@
 #include "observe/quantities.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace capsule {
 namespace {
-
-std::string profiles_header() {
-  std::string text = "time,x_g";
-  for (const ProfileQuantity &quantity : profile_quantities())
-    text += fmt::format(",{}", quantity.name);
-  return text;
-}
 
 struct Column {
   std::string head;
@@ -25,17 +19,16 @@ struct Column {
 };
 
 std::string csv_of(const std::vector<Column> &columns, const std::vector<SeriesRow> &series) {
-  std::string text;
-  for (const Column &column : columns)
-    text += fmt::format("{}{}", text.empty() ? "" : ",", column.head);
+  std::vector<std::string> fields;
+  std::ranges::transform(columns, std::back_inserter(fields), &Column::head);
+  std::string text = csv_row(fields);
   for (const SeriesRow &row : series) {
-    char separator = '\n';
-    for (const Column &column : columns) {
-      text += separator + number_text(row.*column.value * column.scale);
-      separator = ',';
-    }
+    std::ranges::transform(columns, fields.begin(), [&](const Column &column) {
+      return number_text(row.*column.value * column.scale);
+    });
+    text += csv_row(fields);
   }
-  return text + "\n";
+  return text;
 }
 
 } // namespace
@@ -63,28 +56,32 @@ std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow
 
 std::string branch_csv(const Outcome &outcome) {
   const std::vector<ReportedQuantity> quantities = branch_quantities();
-  std::string text = outcome.along;
-  for (const ReportedQuantity &quantity : quantities)
-    text += fmt::format(",{}", quantity.name);
-  text += ",growth_rate\n";
+  std::vector<std::string> fields{outcome.along};
+  std::ranges::transform(quantities, std::back_inserter(fields), &ReportedQuantity::name);
+  fields.emplace_back("growth_rate");
+  std::string text = csv_row(fields);
   for (const BranchRow &point : outcome.branch) {
-    text += number_text(point.parameter);
+    fields = {number_text(point.parameter)};
     for (const ReportedQuantity &quantity : quantities)
-      text += ',' + number_text(point.row.*quantity.value);
-    text += fmt::format(",{}\n", number_text(point.growth_rate));
+      fields.push_back(number_text(point.row.*quantity.value));
+    fields.push_back(number_text(point.growth_rate));
+    text += csv_row(fields);
   }
   return text;
 }
 
 std::string profiles_csv(const std::vector<Profile> &profiles) {
-  std::string text = profiles_header();
+  std::vector<std::string> fields{"time", "x_g"};
+  std::ranges::transform(profile_quantities(), std::back_inserter(fields), &ProfileQuantity::name);
+  std::string text = csv_row(fields);
   for (const Profile &profile : profiles)
     for (Eigen::Index i = 0; i < profile.x.size(); ++i) {
-      text += fmt::format("\n{},{}", number_text(profile.time), number_text(profile.x_g));
+      fields = {number_text(profile.time), number_text(profile.x_g)};
       for (const ProfileQuantity &quantity : profile_quantities())
-        text += ',' + number_text((profile.*quantity.values)[i]);
+        fields.push_back(number_text((profile.*quantity.values)[i]));
+      text += csv_row(fields);
     }
-  return text + "\n";
+  return text;
 }
 
 Profile read_last_profile(const std::filesystem::path &directory) {
