@@ -6,13 +6,8 @@
 mkdir build bin
 ln -s "$capsule" build/capsule
 values() { seq "$1" | awk '{ printf "%s%g", (NR > 1 ? ", " : ""), 1 + $1 / 1000 }'; }
-cat >"many (it's).toml" <<TOML
-accuracy = 1e-2
-capsule.radius = 0.7
-capsule.start_x = -1.4
-membrane.law = "skalak"
-membrane.bending_ratio = 1e-3
-flow.capillary_number = 0.05
+short_case >"many (it's).toml"
+cat >>"many (it's).toml" <<TOML
 until.time = 0.01
 sweep."flow.viscosity_ratio" = [$(values 1200)]
 TOML

@@ -13,13 +13,8 @@ mkdir build cases
 ln -s "$capsule" build/capsule
 case="cases/my small \$HOME (it's {1} & \`touch evil\`; touch evil).toml"
 results="results/$(basename "$case" .toml)"
-cat > "$case" << 'TOML'
-accuracy = 1e-2
-capsule.radius = 0.7
-capsule.start_x = -1.4
-membrane.law = "skalak"
-membrane.bending_ratio = 1e-3
-flow.capillary_number = 0.05
+short_case >"$case"
+cat >>"$case" <<'TOML'
 until.time = 2
 [sweep]
 "pore.exit_x" = [4, 5, 0.6]

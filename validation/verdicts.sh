@@ -10,13 +10,8 @@ says() {
 
 # The second run crosses the exit section and fails.
 mkdir -p cases/small tables
-cat >cases/small/case.toml <<'TOML'
-accuracy = 1e-2
-capsule.radius = 0.7
-capsule.start_x = -1.4
-membrane.law = "skalak"
-membrane.bending_ratio = 1e-3
-flow.capillary_number = 0.05
+short_case >cases/small/case.toml
+cat >>cases/small/case.toml <<'TOML'
 until.time = 2
 [sweep]
 "pore.exit_x" = [5, 0.6]

@@ -58,7 +58,8 @@ struct Checks {
   // The undeformed capsule between the two end sections and inside the wall of eq. 1.
   void check_start() {
     const Case &c = physics;
-    const double half_length = extent(c.capsule).half_length, half_width = extent(c.capsule).half_width;
+    const Extent capsule = extent(c.capsule);
+    const double half_length = capsule.half_length, half_width = capsule.half_width;
     const double x_0 = c.capsule.start_x;
     const double back = x_0 - half_length, front = x_0 + half_length;
     if (back <= -c.pore.entrance_distance)

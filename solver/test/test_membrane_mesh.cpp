@@ -1,5 +1,6 @@
 // Panels of the membranes, and several membranes as parts of one mesh.
 #include "flow/membrane_mesh.hpp"
+#include "folded.hpp"
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -11,15 +12,6 @@ using namespace capsule;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-// A circle whose rear is pushed in: its fold is at the angle 0.8.
-Vector folded(const Vector &angle) {
-  const auto a = angle.array();
-  const Eigen::ArrayXd inward = 0.5 * (1 - ((a - 0.8) / 0.08).tanh() * ((a + 0.8) / 0.08).tanh());
-  Vector position(2 * angle.size());
-  position << -a.cos() + inward * 2 * (a.cos() - std::cos(0.8)), a.sin();
-  return position;
-}
 
 Vector circle(const MeridianBasis &basis, double radius) {
   Vector position(2 * basis.size());

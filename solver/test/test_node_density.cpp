@@ -1,4 +1,5 @@
 // Nodes for a shape: the same points of the membrane wherever the nodes lie, and fewer nodes for a fold.
+#include "folded.hpp"
 #include "geometry/node_density.hpp"
 #include "geometry/reference_shape.hpp"
 #include <boost/test/unit_test.hpp>
@@ -10,15 +11,6 @@ using namespace capsule;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-// A sphere whose rear is pushed in: at the ring where it turns back, the tangent turns within a tenth of a radian.
-Vector folded(const Vector &angle) {
-  const auto a = angle.array();
-  const Eigen::ArrayXd inward = 0.5 * (1 - ((a - 0.8) / 0.08).tanh() * ((a + 0.8) / 0.08).tanh());
-  Vector position(2 * angle.size());
-  position << -a.cos() + inward * 2 * (a.cos() - std::cos(0.8)), a.sin();
-  return position;
-}
 
 } // namespace
 
