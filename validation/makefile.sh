@@ -4,6 +4,8 @@
 # sweep` takes the case's name as it is typed.
 #   sh validation/makefile.sh path/to/capsule
 . "$(dirname "$0")/lib/program.sh"
+# What a make that runs this test hands down is not for the make that is tested: it would speak of levels.
+unset MAKEFLAGS MFLAGS MAKELEVEL
 make_in() { # DIRECTORY ARGUMENT...; what is said goes into log
   (cd "$1" && shift && make "$@") >log 2>&1
 }
