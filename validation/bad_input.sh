@@ -40,6 +40,9 @@ echo "$good
 flow.viscosty_ratio = 1" | bad "4:1: error: unknown key 'flow.viscosty_ratio'"
 echo "$good
 flow.viscosity_ratio = \"one\"" | bad '4:24: error: .* must be a number'
+for typed in 1.0d-3 1d-3 0,05 .05; do
+  echo "$good" | sed "s/0.04/$typed/" | bad "3:25: error: '$typed' is not a number; write [01].[0-9e.-]*$"
+done
 echo "$good
 pore.opening_angle_deg = 120" | bad '4:26: error: .* is out of range'
 echo 'membrane.law = "skalak"
@@ -143,6 +146,13 @@ expect 2 '^--set:1:1: error: ' "$capsule" run file.toml --set 'ωflow.viscosity=
 expect 2 "^did you mean 'flow.viscosity_ratio'" "$capsule" run file.toml --set flow.viscosity_rato=1
 expect 2 '^--set:1:1: error: expected key=value' "$capsule" run file.toml --set flow.viscosity_ratio
 expect 2 '^--set:1:22: error: flow.viscosity_ratio = -1' "$capsule" run file.toml --set flow.viscosity_ratio=-1
+for typed in 1.0d-3 1d-3 0,04 .04; do
+  expect 2 '^write [01].[0-9e.-]*$' "$capsule" run file.toml --set "flow.capillary_number=$typed"
+done
+expect 0 '^membrane = 60$' "$capsule" show file.toml --set mesh.membrane=60.0
+expect 2 'a whole number, not 60.5' "$capsule" show file.toml --set mesh.membrane=60.5
+expect 2 "--to: '0,3' is not a number; write 0.3" "$capsule" branch file.toml --along capsule.radius --to 0,3
+expect 2 "'1,5' is not a number; write 1.5" "$capsule" run file.toml --time-limit 1,5
 expect 2 'CASE' "$capsule" run
 expect 2 'subcommand' "$capsule"
 expect 2 'jobs' "$capsule" run file.toml --jobs 0

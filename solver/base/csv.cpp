@@ -117,7 +117,7 @@ Columns read_columns(const fs::path &file) {
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto number = to_number(trimmed(fields[k]));
       if (!number)
-        refuse(rows[i], fmt::format("'{}' in the column '{}' is not a number", fields[k], names[k]));
+        refuse(rows[i], not_a_number(trimmed(fields[k]), fmt::format(" in the column '{}'", names[k])));
       values[k].push_back(*number);
     }
   }

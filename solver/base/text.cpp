@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <regex>
 #include <utf8.h>
 #include <vector>
 
@@ -52,6 +53,32 @@ std::optional<double> to_number(const std::string &text) {
   return whole && !too_large ? std::optional(value) : std::nullopt;
 }
 
+std::string respelled_number(const std::string &text) {
+  constexpr std::size_t longest = 40;
+  constexpr std::string_view minus = "\u2212";
+  static const std::regex number("([+-]?)(0*)([0-9]*)(?:([.,])([0-9]*))?(?:[eEdD]([+-]?[0-9]+))?");
+  std::string ascii = text;
+  if (ascii.starts_with(minus))
+    ascii.replace(0, minus.size(), "-");
+  std::smatch part;
+  if (ascii.size() > longest || !std::regex_match(ascii, part, number))
+    return "";
+  const std::string zeros = part[2], whole = part[3], point = part[4], fraction = part[5];
+  if (zeros.empty() && whole.empty() && fraction.empty())
+    return "";
+  const bool thousands = point == "," && fraction.size() == 3 && zeros.empty() && !whole.empty();
+  if (thousands)
+    return "";
+  return fmt::format("{}{}{}{}", part[1] == "-" ? "-" : "", whole.empty() ? "0" : whole,
+                     point.empty() ? "" : "." + (fraction.empty() ? "0" : fraction),
+                     part[6].matched ? "e" + part[6].str() : "");
+}
+
+std::string not_a_number(const std::string &text, const std::string &where) {
+  const std::string meant = respelled_number(text);
+  return fmt::format("'{}'{} is not a number{}", text, where, meant.empty() ? "" : "; write " + meant);
+}
+
 std::string counted(std::size_t number, std::string_view what) {
   return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
 }
@@ -87,6 +114,10 @@ std::string encoded(std::u32string_view text) {
 std::optional<EncodingError> encoding_error(std::string_view bytes) {
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
     return EncodingError{0, "the text is in UTF-16; save it in UTF-8"};
+  const auto is_zero = [&](std::size_t byte) { return byte < bytes.size() && bytes[byte] == '\0'; };
+  if (is_zero(0) != is_zero(1) && is_zero(0) == is_zero(2) &&
+      is_zero(1) == is_zero(3)) // a letter's other half
+    return EncodingError{0, "the text seems to be in UTF-16; save it in UTF-8"};
   if (const std::size_t zero = bytes.find('\0'); zero != std::string_view::npos)
     return EncodingError{zero, "not a text file: byte 0"};
   if (const std::size_t wrong = utf8::find_invalid(bytes); wrong != std::string_view::npos)

@@ -14,6 +14,12 @@ std::string number_text(double value);
 // The number that the whole text is.
 std::optional<double> to_number(const std::string &text);
 
+// The number that a text in the notation of another program most likely means, as it is written here: "1e-3" for "1d-3",
+// "0.05" for "0,05" or ".05", "5.0" for "5.", "-5" with a typesetter's minus. Empty if it is none, or may be two: "1,000".
+std::string respelled_number(const std::string &text);
+// "'0,05' in the column 'v_g' is not a number; write 0.05", where " in the column 'v_g'" says where it stands.
+std::string not_a_number(const std::string &text, const std::string &where = "");
+
 // "1 run", "4 runs".
 std::string counted(std::size_t number, std::string_view what);
 

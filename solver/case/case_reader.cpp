@@ -293,7 +293,11 @@ void read_override(CaseReader &reader, const std::string &argument) {
     return;
   }
   auto parsed = parse_toml(source, argument);
-  if (std::holds_alternative<LocatedError>(parsed))
+  // What begins as TOML is no bare word.
+  const std::size_t begin = argument.find_first_not_of(" \t", equals + 1);
+  const bool bare =
+      begin == std::string::npos || std::string_view("[{\"'").find(argument[begin]) == std::string_view::npos;
+  if (bare && std::holds_alternative<LocatedError>(parsed))
     parsed = parse_toml(source, argument.substr(0, equals + 1) + value_text(argument.substr(equals + 1)));
   if (const auto *error = std::get_if<LocatedError>(&parsed)) {
     reader.text.complain(*error);

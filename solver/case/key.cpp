@@ -24,8 +24,19 @@ std::string described(const Value &value) {
   return value_text(value);
 }
 
-Complaint wrong_type(const Key &key, const std::string &wanted, const Value &value) {
-  return {fmt::format("{} must be {}, not {}", key.name, wanted, described(value)), ""};
+Complaint wrong_type(const Key &key, const std::string &wanted, const Value &value,
+                     const std::string &hint = "") {
+  return {fmt::format("{} must be {}, not {}", key.name, wanted, described(value)), hint};
+}
+
+// For a text in a number's place.
+std::string number_hint(const Value &value) {
+  const auto *text = std::get_if<std::string>(&value);
+  const std::string meant = text != nullptr ? respelled_number(trimmed(*text)) : "";
+  return text == nullptr           ? ""
+         : meant.empty()           ? number_notation
+         : meant == trimmed(*text) ? fmt::format("a number stands without quotes: {}", meant)
+                                   : "write " + meant;
 }
 
 std::optional<Complaint> check_number(const Key &key, double value) {
@@ -63,19 +74,19 @@ struct Setter {
     return std::nullopt;
   }
   std::optional<Complaint> operator()(const Member<int> &member) const {
-    const auto *integer = std::get_if<std::int64_t>(&value);
-    if (!integer)
-      return wrong_type(key, "a whole number", value);
-    if (auto complaint = check_number(key, static_cast<double>(*integer)))
+    const auto number = as_number(value);
+    if (!number || (std::isfinite(*number) && *number != std::trunc(*number)))
+      return wrong_type(key, "a whole number", value, number_hint(value));
+    if (auto complaint = check_number(key, *number))
       return complaint;
-    member.in(physics) = static_cast<int>(*integer);
+    member.in(physics) = static_cast<int>(*number);
     return std::nullopt;
   }
   template <class T>
   std::optional<Complaint> operator()(const Member<T> &member) const {
     const auto number = as_number(value);
     if (!number)
-      return wrong_type(key, "a number", value);
+      return wrong_type(key, "a number", value, number_hint(value));
     if (auto complaint = check_number(key, *number))
       return complaint;
     member.in(physics) = *number;

@@ -18,6 +18,9 @@ struct Complaint {
   std::string hint;
 };
 
+// How numbers are written, for whoever has written one in another way.
+constexpr const char *number_notation = "a number is written as 0.05, 1000 or 1e-3";
+
 struct TextPlace {
   std::size_t source = 0; // which of the texts
   std::size_t line = 1;

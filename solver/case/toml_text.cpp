@@ -5,12 +5,14 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 namespace capsule {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_view_literals;
 
 bool is_ascii(char32_t c) {
   return c < 0x80;
@@ -34,14 +36,56 @@ TextPlace place_at(std::size_t source, std::u32string_view text, std::size_t at)
   return {source, lines + 1, before.size() - (before.rfind(U'\n') + 1) + 1};
 }
 
+// What stands in a number's place around a character of a line.
+struct Word {
+  std::size_t begin, end;
+};
+Word word_around(std::u32string_view line, std::size_t at, std::u32string_view ends) {
+  const std::size_t before = line.substr(0, at).find_last_of(ends), behind = line.find_first_of(ends, at);
+  return {before == std::u32string_view::npos ? 0 : before + 1, std::min(behind, line.size())};
+}
+
+// A number in another program's notation at a place where toml++ cannot go on, and its first character.
+struct ForeignNumber {
+  std::size_t begin;
+  std::string typed;
+};
+std::optional<ForeignNumber> foreign_number(std::u32string_view line, std::size_t at) {
+  constexpr std::u32string_view ends = U" \t=[]{}#\"'";
+  if (at > 0 && (at >= line.size() || ends.find(line[at]) != std::u32string_view::npos))
+    --at; // toml++ has read to the word's end
+  const Word with_commas = word_around(line, at, ends);
+  const Word item = word_around(line, at, std::u32string(ends) + U",");
+  const std::size_t opened = line.substr(0, with_commas.begin).find_last_of(U"=[");
+  const bool in_list = opened == std::u32string_view::npos || line[opened] == U'[';
+  for (const Word &word : {with_commas, item}) {
+    const std::u32string_view whole = line.substr(word.begin, word.end - word.begin);
+    // In a list a comma parts two items; but none of them begins with a zero before another digit.
+    const std::size_t comma = whole.find(U',');
+    if (in_list && comma != std::u32string_view::npos && whole.substr(comma + 1, 1) != U"0")
+      continue;
+    const std::size_t before = line.substr(0, word.begin).find_last_not_of(U" \t");
+    const bool begins_here =
+        before == std::u32string_view::npos || U"=[,"sv.find(line[before]) != std::u32string_view::npos;
+    const std::string typed = encoded(whole), meant = respelled_number(typed);
+    if (begins_here && !meant.empty() && meant != typed)
+      return ForeignNumber{word.begin, typed};
+  }
+  return std::nullopt;
+}
+
 // What toml++ says of a text whose characters beyond ASCII it was given as question marks.
 LocatedError syntax_error(std::size_t source, const toml::parse_error &error, const std::u32string &text) {
   LocatedError told{place_of(source, error.source().begin), std::string(error.description()), ""};
   const std::vector<std::u32string> lines = split_lines(text);
-  if (told.place.line > lines.size() || told.place.column > lines[told.place.line - 1].size())
+  if (told.place.line > lines.size())
     return told;
   const std::u32string_view line = lines[told.place.line - 1];
   const std::size_t at = told.place.column - 1;
+  if (const auto number = foreign_number(line, at))
+    return {{source, told.place.line, number->begin + 1}, not_a_number(number->typed), ""};
+  if (at >= line.size())
+    return told;
   if (const std::size_t mark = told.message.rfind("'?'"); mark != std::string::npos)
     told.message.replace(mark + 1, 1, encoded(line.substr(at, 1)));
   const std::u32string_view before = line.substr(0, line.find_last_not_of(U' ', at == 0 ? 0 : at - 1) + 1);
@@ -49,6 +93,8 @@ LocatedError syntax_error(std::size_t source, const toml::parse_error &error, co
   const bool letter = (line[at] >= U'a' && line[at] <= U'z') || (line[at] >= U'A' && line[at] <= U'Z');
   if (behind_number && (letter || !is_ascii(line[at])))
     told.hint = "a number with its unit stands in quotes: \"5 um\"";
+  else if (behind_number)
+    told.hint = number_notation;
   return told;
 }
 

@@ -274,6 +274,19 @@ double scaled(double number, const Unit &unit) {
   return unit.sixty < 0 ? whole / sixties : whole * sixties;
 }
 
+// The same quantity with its number in the notation that is read here, if it is in another: "5e-6 m" for "5d-6 m".
+std::string respelled_quantity(const std::string &text) {
+  constexpr std::size_t longest = 40;
+  for (std::size_t digits = std::min(text.size(), longest); digits > 0; --digits) {
+    const std::string number = respelled_number(text.substr(0, digits));
+    const bool ends_here = digits == text.size() ||
+                           std::string_view("0123456789.,").find(text[digits]) == std::string_view::npos;
+    if (!number.empty() && ends_here)
+      return number == text.substr(0, digits) ? "" : number + text.substr(digits);
+  }
+  return "";
+}
+
 std::string power_text(const char *symbol, int exponent) {
   return exponent == 0 ? "" : fmt::format(".{}{}", symbol, exponent == 1 ? "" : std::to_string(exponent));
 }
@@ -292,14 +305,16 @@ std::variant<Quantity, NoQuantity> read_quantity(const std::string &typed, const
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc())
-    return NoQuantity{fmt::format("'{}' is no number with a unit", text), ""};
+    return NoQuantity{fmt::format("'{}' is no number with a unit", text), respelled_quantity(text)};
   const auto digits = static_cast<std::size_t>(end - text.data());
   const std::string unit_part = trimmed(in_ascii(std::string_view(text).substr(digits)));
   if (unit_part.empty())
     return NoQuantity{fmt::format("'{}' has no unit", text), ""};
   if (text[digits] == ',')
-    return NoQuantity{fmt::format("'{}' has a comma in its number", text),
-                      fmt::format("{}.{}", text.substr(0, digits), text.substr(digits + 1))};
+    return NoQuantity{fmt::format("'{}' has a comma in its number", text), respelled_quantity(text)};
+  if (const std::string meant = respelled_quantity(text);
+      !meant.empty() && std::tolower(static_cast<unsigned char>(text[digits])) == 'd')
+    return NoQuantity{fmt::format("'{}' has a d in its number", text), meant};
   if (unit_part.substr(std::min(unit_part.find_first_not_of(".x "), unit_part.size())).starts_with("10"))
     return NoQuantity{fmt::format("'{}': a power of ten is written as in 5e-6", text), ""};
   UnitReader reader{unit_part};

@@ -60,7 +60,7 @@ std::string read_numbers(Expectation &row) {
   row.form = first == '<' ? Form::below : first == '>' ? Form::above : Form::value;
   const auto value = to_number(row.form == Form::value ? row.published : trimmed(row.published.substr(1)));
   if (!value)
-    return fmt::format("the value '{}' is not a number", row.published);
+    return "the value " + not_a_number(row.published);
   row.published_value = *value;
   if (row.form != Form::value)
     return row.allowed.empty() ? "" : "a bound allows no distance";

@@ -18,9 +18,13 @@ CLI::Validator above_zero() {
   return {[](const std::string &text) -> std::string {
             const auto number = to_number(text);
             const bool good = number && *number > 0 && std::isfinite(*number);
-            return good ? "" : fmt::format("'{}' is no number above 0", text);
+            return good ? "" : number ? fmt::format("'{}' is no number above 0", text) : not_a_number(text);
           },
           "> 0"};
+}
+
+CLI::Validator any_real_number() {
+  return {[](const std::string &text) { return to_number(text) ? "" : not_a_number(text); }, ""};
 }
 
 void add_case(CLI::App &command, Arguments &arguments) {
@@ -98,7 +102,9 @@ ExitCode run_command(int argc, char **argv) {
   add_computing(branch_app, arguments);
   add_selection(branch_app, arguments);
   branch_app.add_option("--along", arguments.along, "the key that varies, from the case's value")->required();
-  branch_app.add_option("--to", arguments.to, "the value of the key where the branch ends")->required();
+  branch_app.add_option("--to", arguments.to, "the value of the key where the branch ends")
+      ->check(any_real_number())
+      ->required();
   branch_app.callback([&] { code = follow_branches(arguments); });
   CLI::App &check_app =
       *app.add_subcommand("check", "compute what is missing and compare with expected values");

@@ -95,6 +95,9 @@ BOOST_AUTO_TEST_CASE(what_is_refused) {
     BOOST_TEST(refusal(utf16("id,value\n", low_byte_first)) ==
                "t.csv:1:1: error: the text is in UTF-16; save it in UTF-8\n" + advice);
   BOOST_TEST(refusal("id,value\na,5 \xb5m\n") == "t.csv:2:1: error: not UTF-8: byte 0xb5\n" + advice);
+  for (const auto &half : {std::string("i\0d\0\n\0", 6), std::string("\0i\0d\0\n", 6)})
+    BOOST_TEST(refusal(half) ==
+               "t.csv:1:1: error: the text seems to be in UTF-16; save it in UTF-8\n" + advice);
   BOOST_TEST(refusal(std::string("id\n\0", 4)) == "t.csv:2:1: error: not a text file: byte 0\n" + advice);
   for (const char *text :
        {"id;value\na;1\n", "\"id\";\"value\"\n\"a\";\"1,5\"\n", "id\tvalue\n", "sep=;\nid;value\n"})
@@ -119,6 +122,8 @@ BOOST_AUTO_TEST_CASE(columns_of_numbers) {
   BOOST_TEST(refusal_of_numbers("a,b\n1,2,3\n") == "t.csv:2:1: error: 3 fields instead of 2\n");
   BOOST_TEST(refusal_of_numbers("a,b\n1,2 um\n") ==
              "t.csv:2:1: error: '2 um' in the column 'b' is not a number\n");
+  BOOST_TEST(refusal_of_numbers("a,b\n1,1.0D-02\n") ==
+             "t.csv:2:1: error: '1.0D-02' in the column 'b' is not a number; write 1.0e-02\n");
   BOOST_TEST(refusal_of_numbers("a,b\n1,\n") == "t.csv:2:1: error: '' in the column 'b' is not a number\n");
   BOOST_TEST(refusal_of_numbers("a,a\n1,2\n") == "t.csv:1:1: error: there are two columns 'a'\n");
   BOOST_TEST(refusal_of_numbers("a\n\x1b[2J\n") ==

@@ -38,6 +38,7 @@ BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
   check_contains(mistake_in(header + "a,T,fig,,v_g,1\n"), "published.csv:2:1: error: 6 fields instead of 14");
   const auto mistake = [](const std::string &fields) { return mistake_in(header + plain(fields)); };
   check_contains(mistake("a,T,x,,v_g,high,1 %,"), "the value 'high' is not a number");
+  check_contains(mistake("a,T,x,,v_g,\"1,3\",1 %,"), "the value '1,3' is not a number; write 1.3");
   check_contains(mistake("a,T,x,,v_g,<high,,"), "the value '<high' is not a number");
   check_contains(mistake("a,T,x,,v_g,<1,0.1,"), "a bound allows no distance");
   check_contains(mistake("a,T,x,,status,done,,"), "the status 'done' is none of 'reached', 'steady'");

@@ -148,6 +148,20 @@ BOOST_AUTO_TEST_CASE(what_is_no_quantity_is_refused) {
     BOOST_TEST(refused(text, dimension::length).why == why);
 }
 
+// A number in another program's notation is named and written anew where it can mean one thing only.
+BOOST_AUTO_TEST_CASE(numbers_of_quantities_in_other_notations) {
+  for (const auto &[text, meant] : {std::pair{"0,5 um", "0.5 um"},
+                                    {"5d-6 m", "5e-6 m"},
+                                    {"5.0D-6m", "5.0e-6m"},
+                                    {"+5 um", "5 um"},
+                                    {"1,000 um", ""},
+                                    {"1,0005 um", "1.0005 um"}})
+    BOOST_TEST(refused(text, dimension::length).meant == meant);
+  BOOST_TEST(refused("5d-6 m", dimension::length).why == "'5d-6 m' has a d in its number");
+  BOOST_TEST(si("5 dm", dimension::length) == 0.5);
+  BOOST_TEST(si("5dm", dimension::length) == 0.5);
+}
+
 BOOST_AUTO_TEST_CASE(what_was_meant) {
   BOOST_TEST(refused("5 ym", dimension::length).meant == "5 um");
   BOOST_TEST(refused("5 umm", dimension::length).meant == "5 um");
