@@ -2,6 +2,7 @@
 // the oldest of all, at a quarter of the speed of dense products: version 0.3.21 does so on processors of 2023. Then
 // every program of the project begins again, once, with the kernels that the processor's instructions allow.
 // OPENBLAS_CORETYPE, which names them, is not touched where the user has set it.
+#include <array>
 #include <cblas.h>
 #include <cstdlib>
 #include <cstring>
@@ -27,8 +28,10 @@ const char *better_kernels() {
 [[gnu::constructor]] void choose_kernels(int /*count*/, char **arguments, char ** /*environment*/) {
   constexpr const char *variable = "OPENBLAS_CORETYPE";
   const char *kernels = std::getenv(variable) == nullptr ? better_kernels() : nullptr;
-  if (kernels != nullptr && setenv(variable, kernels, 0) == 0)
-    execv("/proc/self/exe", arguments); // where this fails, the program goes on with the slow ones
+  std::array<char, 4096> program{}; // its own path: the process keeps its name
+  if (kernels != nullptr && readlink("/proc/self/exe", program.data(), program.size() - 1) > 0 &&
+      setenv(variable, kernels, 0) == 0)
+    execv(program.data(), arguments); // where this fails, the program goes on with the slow ones
 }
 
 } // namespace

@@ -54,16 +54,29 @@ void set_gauss_legendre(int n, MeridianBasis &basis) {
   }
 }
 
+// cos(k zeta), or sin(k zeta), k = first, first + 1 ...: each wave follows from the one before by a turn by zeta. The
+// error of k turns is that of rounding k zeta.
+Matrix waves(bool cosine, const Vector &points, Eigen::Index first, Eigen::Index count) {
+  Matrix values(points.size(), count);
+  const Eigen::ArrayXd turn_c = points.array().cos(), turn_s = points.array().sin();
+  Eigen::ArrayXd c = Eigen::ArrayXd::Ones(points.size()), s = Eigen::ArrayXd::Zero(points.size());
+  for (Eigen::Index k = 0; k < first + count; ++k) {
+    if (k >= first)
+      values.col(k - first) = cosine ? c : s;
+    const Eigen::ArrayXd turned = c * turn_c - s * turn_s;
+    s = s * turn_c + c * turn_s;
+    c = turned;
+  }
+  return values;
+}
+
 // Derivatives of cos(k zeta) when quarter_turns = 0, of sin(k zeta) when it is -1.
 Matrix waves(const Vector &points, Eigen::Index n, int first_k, int quarter_turns, int derivative) {
-  Matrix values(points.size(), n);
   const int turn = (quarter_turns + derivative + 4) % 4;
-  for (Eigen::Index column = 0; column < n; ++column) {
-    const auto k = static_cast<double>(first_k + column);
-    const auto angle = (k * points).array();
-    const double factor = std::pow(k, derivative) * (turn == 1 || turn == 2 ? -1 : 1);
-    values.col(column) = factor * (turn % 2 == 0 ? Vector(angle.cos()) : Vector(angle.sin()));
-  }
+  Matrix values = waves(turn % 2 == 0, points, first_k, n);
+  for (Eigen::Index column = 0; column < n; ++column)
+    values.col(column) *=
+        std::pow(static_cast<double>(first_k + column), derivative) * (turn == 1 || turn == 2 ? -1 : 1);
   return values;
 }
 
@@ -152,6 +165,14 @@ Vector bspline_integrals(const Vector &nodes) {
 
 } // namespace
 
+Matrix cosines(const Vector &points, Eigen::Index first, Eigen::Index count) {
+  return waves(true, points, first, count);
+}
+
+Matrix sines(const Vector &points, Eigen::Index first, Eigen::Index count) {
+  return waves(false, points, first, count);
+}
+
 MeridianBasis spectral_basis(int nodes) {
   require(nodes >= 3, "a spectral basis needs three nodes");
   MeridianBasis basis;
@@ -182,6 +203,16 @@ Matrix MeridianBasis::even(const Vector &points, int derivative) const {
 Matrix MeridianBasis::odd(const Vector &points, int derivative) const {
   return spline ? spline_values(nodes, odd_from_nodes, points, derivative)
                 : Matrix(waves(points, size(), 1, -1, derivative) * odd_from_nodes);
+}
+
+Vector MeridianBasis::even(const Vector &points, int derivative, const Vector &at_nodes) const {
+  return spline ? Vector(even(points, derivative) * at_nodes)
+                : Vector(waves(points, size(), 0, 0, derivative) * (even_from_nodes * at_nodes));
+}
+
+Vector MeridianBasis::odd(const Vector &points, int derivative, const Vector &at_nodes) const {
+  return spline ? Vector(odd(points, derivative) * at_nodes)
+                : Vector(waves(points, size(), 1, -1, derivative) * (odd_from_nodes * at_nodes));
 }
 
 } // namespace capsule

@@ -29,7 +29,14 @@ struct MeridianBasis {
   // points.size() x N matrices; derivative = 0 ... 3 in zeta.
   Matrix even(const Vector &points, int derivative) const;
   Matrix odd(const Vector &points, int derivative) const;
+  // These matrices times nodal values, without building them.
+  Vector even(const Vector &points, int derivative, const Vector &at_nodes) const;
+  Vector odd(const Vector &points, int derivative, const Vector &at_nodes) const;
 };
+
+// cos(k zeta) and sin(k zeta) at points, a column for each k = first ... first + count - 1.
+Matrix cosines(const Vector &points, Eigen::Index first, Eigen::Index count);
+Matrix sines(const Vector &points, Eigen::Index first, Eigen::Index count);
 
 MeridianBasis spectral_basis(int nodes);
 MeridianBasis spline_basis(int elements);

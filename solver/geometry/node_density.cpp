@@ -16,30 +16,22 @@ Vector midpoints(Eigen::Index parts) {
          static_cast<double>(parts);
 }
 
-// cos(k a), sin(k a) at points a: a column for each k = 0 ... waves - 1.
-Eigen::ArrayXXd cosines(const Eigen::ArrayXd &a, Eigen::Index waves) {
-  return (a.matrix() * Vector::LinSpaced(waves, 0, static_cast<double>(waves - 1)).transpose()).array().cos();
-}
-Eigen::ArrayXXd sines(const Eigen::ArrayXd &a, Eigen::Index waves) {
-  return (a.matrix() * Vector::LinSpaced(waves, 0, static_cast<double>(waves - 1)).transpose()).array().sin();
-}
-
 // The angle as a function of zeta: zeta plus a series of sines, whose coefficients are `rest`.
 struct AngleMap {
   AngleMap(const MeridianBasis &basis, const Vector &node_angle)
       : rest(basis.odd_from_nodes * (node_angle - basis.nodes)) {}
   Eigen::ArrayXd value(const Eigen::ArrayXd &zeta) const {
-    return zeta + (sines(zeta, rest.size() + 1).rightCols(rest.size()).matrix() * rest).array();
+    return zeta + (sines(zeta, 1, rest.size()) * rest).array();
   }
   Eigen::ArrayXd slope(const Eigen::ArrayXd &zeta) const {
     const Eigen::Index n = rest.size();
     const Vector k = Vector::LinSpaced(n, 1, static_cast<double>(n));
-    return 1 + (cosines(zeta, n + 1).rightCols(n).matrix() * k.cwiseProduct(rest)).array();
+    return 1 + (cosines(zeta, 1, n) * k.cwiseProduct(rest)).array();
   }
   Eigen::ArrayXd bend(const Eigen::ArrayXd &zeta) const {
     const Eigen::Index n = rest.size();
     const Vector k = Vector::LinSpaced(n, 1, static_cast<double>(n));
-    return -(sines(zeta, n + 1).rightCols(n).matrix() * k.cwiseProduct(k).cwiseProduct(rest)).array();
+    return -(sines(zeta, 1, n) * k.cwiseProduct(k).cwiseProduct(rest)).array();
   }
   Vector rest;
 };
@@ -75,11 +67,11 @@ Vector density_logarithm(const MeridianBasis &basis, const Vector &node_angle, c
     return once.square() + ((second - once * bend) / slope.square()).square();
   };
   const Eigen::ArrayXd squares =
-      by_angle(basis.even(zeta, 1) * position.head(n), basis.even(zeta, 2) * position.head(n)) +
-      by_angle(basis.odd(zeta, 1) * position.tail(n), basis.odd(zeta, 2) * position.tail(n));
+      by_angle(basis.even(zeta, 1, position.head(n)), basis.even(zeta, 2, position.head(n))) +
+      by_angle(basis.odd(zeta, 1, position.tail(n)), basis.odd(zeta, 2, position.tail(n)));
   const Eigen::ArrayXd density = 0.5 * (1 + squares / squares.minCoeff()).log();
   Vector coefficients =
-      cosines(map.value(zeta), waves).matrix().transpose() * (density * slope * 2 / points).matrix();
+      cosines(map.value(zeta), 0, waves).transpose() * (density * slope * 2 / points).matrix();
   coefficients[0] /= 2;
   for (Eigen::Index k = 0; k < waves; ++k)
     coefficients[k] *= std::exp(-std::pow(static_cast<double>(k) / shortest_wave, 2));
@@ -90,19 +82,16 @@ Vector density_logarithm(const MeridianBasis &basis, const Vector &node_angle, c
 Vector angles_of_density(const Vector &logarithm, const Vector &zeta) {
   constexpr Eigen::Index waves = 256, points = 1024;
   const Vector angle = midpoints(points);
-  const Vector density = (cosines(angle, logarithm.size()).matrix() * logarithm).array().exp();
-  Vector parts = cosines(angle, waves).matrix().transpose() * density;
+  const Vector density = (cosines(angle, 0, logarithm.size()) * logarithm).array().exp();
+  Vector parts = cosines(angle, 0, waves).transpose() * density;
   parts *= 2 / parts[0];
   parts[0] = 1;
   Vector integrals = parts;
   integrals.tail(waves - 1).array() /= Eigen::ArrayXd::LinSpaced(waves - 1, 1, waves - 1);
   integrals[0] = 0;
   return inverted(
-      [&](const Eigen::ArrayXd &a) -> Eigen::ArrayXd {
-        return a + (sines(a, waves).matrix() * integrals).array();
-      },
-      [&](const Eigen::ArrayXd &a) -> Eigen::ArrayXd { return cosines(a, waves).matrix() * parts; },
-      zeta.array());
+      [&](const Eigen::ArrayXd &a) -> Eigen::ArrayXd { return a + (sines(a, 0, waves) * integrals).array(); },
+      [&](const Eigen::ArrayXd &a) -> Eigen::ArrayXd { return cosines(a, 0, waves) * parts; }, zeta.array());
 }
 
 } // namespace
@@ -133,7 +122,7 @@ Vector at_angles(const Vector &angles, const MeridianBasis &basis, const Vector 
   const Vector zeta = inverted([&](const Eigen::ArrayXd &a) { return map.value(a); },
                                [&](const Eigen::ArrayXd &a) { return map.slope(a); }, angles.array());
   Vector moved(2 * zeta.size());
-  moved << basis.even(zeta, 0) * position.head(n), basis.odd(zeta, 0) * position.tail(n);
+  moved << basis.even(zeta, 0, position.head(n)), basis.odd(zeta, 0, position.tail(n));
   return moved;
 }
 

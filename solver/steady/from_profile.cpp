@@ -2,11 +2,10 @@
 #include "base/failure.hpp"
 #include "geometry/quadrature.hpp"
 #include "steady/newton.hpp"
+#include "steady/relaxation.hpp"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 namespace capsule {
@@ -43,44 +42,6 @@ Vector unknowns_of(const Profile &profile, const Membrane &membrane) {
   unknowns.segment(n, n) = interpolated(profile.S, profile.r, S);
   unknowns[2 * n] = profile.velocity_x.mean();
   return unknowns;
-}
-
-// From a shape that is too far off for Newton's method, the way that it takes itself with equal viscosities: implicit
-// steps in time, which get longer as the motion dies away, until they are Newton's.
-Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
-  constexpr int most_steps = 100;
-  constexpr double first_step = 0.1, shortest_step = 1e-5, long_step = 100;
-  constexpr double intended = 0.2, too_much = 0.6; // part of the motion that its linearisation misses
-  const Eigen::Index n2 = 2 * system.nodes();
-  shape.head(n2 / 2).array() -= system.residual(shape)[n2]; // its centre to where the equations want it
-  system.fit_tube(shape);
-  SteadySystem::Linearisation linear = system.linearise(shape);
-  double step = first_step;
-  for (int k = 0; k < most_steps && step > shortest_step; ++k) {
-    throw_if_interrupted(control);
-    Matrix implicit = linear.jacobian;
-    implicit.diagonal().head(n2).array() -= 1 / step;
-    const Vector change = implicit.partialPivLu().solve(-linear.residual);
-    double error = std::numeric_limits<double>::infinity();
-    std::optional<SteadySystem::Linearisation> next;
-    if (system.admissible_step(shape, change) == 1)
-      try {
-        system.fit_tube(shape + change);
-        next = system.linearise(shape + change);
-        error = (next->residual - change / step).head(n2).cwiseAbs().maxCoeff() /
-                linear.residual.head(n2).cwiseAbs().maxCoeff();
-      } catch (const NumericsFailure &) { // no capsule: the step is too long
-      }
-    if (error < too_much) {
-      shape += change;
-      linear = std::move(*next);
-      if (step > long_step)
-        return shape;
-    }
-    step *= std::clamp(std::sqrt(intended / error), 0.25, 3.0);
-  }
-  throw NumericsFailure("unresolved", "the profile to begin with does not come to rest in the tube",
-                        "leave --from away, or begin with a profile of a later x_g");
 }
 
 } // namespace

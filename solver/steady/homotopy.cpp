@@ -3,9 +3,11 @@
 #include "case/key_path.hpp"
 #include "steady/continuation.hpp"
 #include "steady/newton.hpp"
+#include "steady/relaxation.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <optional>
+#include <utility>
 
 namespace capsule {
 namespace {
@@ -14,6 +16,9 @@ namespace {
 constexpr double weak_flow = 5e-3;
 constexpr double small_radius = 0.6;
 constexpr double stiff_bending = 2e-2; // a shell that does not buckle
+// From this one relaxes. Softer ones buckle on the way to a shape that does not.
+constexpr double bending_to_relax = 1e-2;
+constexpr int most_to_relax_on = 100; // nodes
 
 // On the finest mesh a stretch above this that has grown since the fold counts as running away, too.
 constexpr double large_stretch = 2;
@@ -21,18 +26,12 @@ constexpr double growth_behind_fold = 1.03;
 
 constexpr const char *flow_key = "flow.capillary_number";
 
-// The state on the way from a small stiff sphere in a weak flow to a case's capsule.
+// The state on the way from a state that is easily found to that of a case.
 class Homotopy {
 public:
-  Homotopy(const Case &target, const Control &control) : target_(target), now_(target), control_(control) {
-    now_.flow.capillary_number = std::min(weak_flow, target.flow.capillary_number);
-    now_.capsule.aspect_ratio = 1;
-    now_.membrane.bending_ratio = std::max(stiff_bending, target.membrane.bending_ratio);
-    if (target.pore.shape != PoreShape::none)
-      now_.capsule.radius = std::min(small_radius, target.capsule.radius);
-    state_.system = first_system(now_);
-    state_.unknowns = solve_steady(*state_.system, state_.system->undeformed());
-  }
+  // `begin` is the state of `now`, which differs from the target in the keys to be varied.
+  Homotopy(const Case &target, const Case &now, SteadyState begin, const Control &control)
+      : target_(target), now_(now), control_(control), state_(std::move(begin)) {}
 
   // Takes one key to a value.
   void vary(const std::string &key, double to) {
@@ -78,7 +77,7 @@ private:
   // Follows the branch, if need be through folds, to its end (true) or to where it needs a finer mesh. When it fails,
   // state_ and place_ hold what was reached.
   bool follow(const KeyPath &path) {
-    const Branch::Steps steps{.first = place_.first_step, .largest = 0.7, .tolerance = 1e-6};
+    const Branch::Steps steps{.first = place_.first_step, .largest = 0.7, .tolerance = 1e-4};
     constexpr int most_steps = 200;
     constexpr double first_part = -1; // as far as a branch that has turned is followed
     Branch branch(*state_.system, path, {state_.unknowns, place_.part}, place_.direction, steps);
@@ -148,10 +147,62 @@ private:
   Place place_;
 };
 
+// A small stiff sphere in a weak flow.
+Homotopy from_a_stiff_sphere(const Case &target, const Control &control) {
+  Case begin = target;
+  begin.flow.capillary_number = std::min(weak_flow, target.flow.capillary_number);
+  begin.capsule.aspect_ratio = 1;
+  begin.membrane.bending_ratio = std::max(stiff_bending, target.membrane.bending_ratio);
+  if (target.pore.shape != PoreShape::none)
+    begin.capsule.radius = std::min(small_radius, target.capsule.radius);
+  const auto system = first_system(begin);
+  return {target, begin, {system, solve_steady(*system, system->undeformed())}, control};
+}
+
+// The capsule itself, but for a stiff membrane, let loose in the tube: undeformed, or squeezed if it is wider than that.
+// Then the membrane is softened in stages, on a finer mesh if it folds more than this one can show.
+SteadyState by_relaxation(const Case &target, const Control &control) {
+  constexpr double widest = 0.85, stage = 10, thinnest = 1e-7;
+  Case now = target;
+  double &bending = now.membrane.bending_ratio;
+  bending = std::max(bending_to_relax, bending);
+  SteadyState state{first_system(now), {}};
+  Vector shape = state.system->undeformed();
+  if (state.system->pore()) {
+    const Eigen::Index n = state.system->nodes();
+    const double squeeze = std::min(1.0, widest / shape.segment(n, n).maxCoeff());
+    shape.segment(n, n) *= squeeze;
+    shape.head(n) /= squeeze * squeeze;
+  }
+  state.unknowns = relaxed(*state.system, shape, control);
+  while (bending > target.membrane.bending_ratio) {
+    Case softer = now;
+    softer.membrane.bending_ratio = bending / stage < thinnest
+                                        ? target.membrane.bending_ratio
+                                        : std::max(bending / stage, target.membrane.bending_ratio);
+    state.system->set_parameters(softer);
+    try {
+      state.unknowns = relaxed(*state.system, state.unknowns, control);
+      now = softer;
+    } catch (const NumericsFailure &) {
+      const auto nodes = static_cast<int>(state.system->nodes());
+      if (nodes > most_to_relax_on)
+        throw;
+      state.system->set_parameters(now);
+      state = on_mesh(now, finer_mesh(nodes), state);
+    }
+  }
+  if (target.mesh.membrane > 0) // no finer than asked for
+    state.unknowns = solve_steady(*state.system, state.unknowns);
+  else
+    state = on_mesh(target, finer_mesh(static_cast<int>(state.system->nodes())), state);
+  return state;
+}
+
 // Everything but the capillary number, in a flow of given strength: where the flow is not too weak, a shell gets thin
 // without buckling.
 Homotopy in_a_flow(double strength, const Case &target, const Control &control) {
-  Homotopy homotopy(target, control);
+  Homotopy homotopy = from_a_stiff_sphere(target, control);
   homotopy.vary(flow_key, strength);
   homotopy.vary("capsule.radius", target.capsule.radius);
   homotopy.vary("capsule.aspect_ratio", target.capsule.aspect_ratio);
@@ -162,6 +213,10 @@ Homotopy in_a_flow(double strength, const Case &target, const Control &control) 
 } // namespace
 
 SteadyState by_homotopy(const Case &input, const Control &control) {
+  try {
+    return by_relaxation(input, control);
+  } catch (const NumericsFailure &) { // it may run away, or buckle on the way: branches tell
+  }
   std::optional<NumericsFailure> first;
   const double flow = input.flow.capillary_number;
   const double weakest = input.flow.type == FlowType::extension ? 0 : 0.03; // only a tube squeezes

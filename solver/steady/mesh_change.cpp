@@ -45,8 +45,10 @@ void follow(const KeyPath &path, SteadyState &state) {
 } // namespace
 
 std::shared_ptr<SteadySystem> system_on_mesh(const Case &input, const Vector &node_angle) {
+  constexpr double longer =
+      1.3; // than undeformed, which is not known yet: a tube that is too short is built again
   return std::make_shared<SteadySystem>(input, resolution_of(input, static_cast<int>(node_angle.size())),
-                                        node_angle);
+                                        node_angle, longer * extent(input.capsule).half_length);
 }
 
 std::shared_ptr<SteadySystem> first_system(const Case &input) {
@@ -57,14 +59,15 @@ std::shared_ptr<SteadySystem> first_system(const Case &input) {
 std::shared_ptr<SteadySystem> system_on_mesh(const Case &input, int nodes, const SteadyState &state) {
   constexpr double most_turning = 0.5; // of the tangent in a panel: in a fold kernels vary with it
   const Membrane &membrane = state.system->membrane();
-  const Vector position = state.unknowns.head(2 * state.system->nodes());
+  const Eigen::Index n = state.system->nodes();
+  const Vector position = state.unknowns.head(2 * n);
   const MeridianBasis basis = spectral_basis(nodes);
   const Vector angles = suitable_angles(basis, membrane.basis, membrane.node_angle, position);
   Resolution resolution = resolution_of(input, nodes);
   resolution.flow.membrane_edges =
       halved_edges(basis, at_angles(angles, membrane.basis, membrane.node_angle, position),
                    even_membrane_edges(basis, resolution.flow.membrane_panel), most_turning);
-  return std::make_shared<SteadySystem>(input, resolution, angles);
+  return std::make_shared<SteadySystem>(input, resolution, angles, position.head(n).cwiseAbs().maxCoeff());
 }
 
 int finer_mesh(int nodes) {

@@ -1,24 +1,42 @@
 #include "steady/newton.hpp"
 #include "base/failure.hpp"
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace capsule {
 
+// A matrix is kept while corrections shrink fast with it: a residual costs a small part of a linearisation. What is left
+// after a correction is about the next one, which the last ratio tells.
 Vector solve_steady(SteadySystem &system, Vector guess) {
   constexpr double farthest = 3; // that a guess can be from a solution
+  constexpr double near = 1e-2;  // after a correction as small the matrix may do for the next one
+  constexpr double fast = 0.1;   // ratio of corrections with the same matrix
   const Eigen::Index n2 = 2 * system.nodes();
-  double before = 0;
+  std::optional<Eigen::PartialPivLU<Matrix>> factors;
+  double before = 1;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     system.fit_tube(guess);
-    const SteadySystem::Linearisation linear = system.linearise(guess);
-    const Vector change = linear.jacobian.partialPivLu().solve(-linear.residual);
+    Vector residual;
+    if (factors) {
+      residual = system.residual(guess);
+    } else {
+      const SteadySystem::Linearisation linear = system.linearise(guess);
+      residual = linear.residual;
+      factors.emplace(linear.jacobian);
+    }
+    const Vector change = factors->solve(-residual);
     const double step = system.admissible_step(guess, change);
     const double length = change.head(n2).cwiseAbs().maxCoeff();
     if (!(length < farthest) || (iteration > 10 && !contracts(iteration, before, length)))
       no_convergence();
+    const double ratio = length / before;
     guess += step * change;
-    if (step == 1 && length < position_tolerance)
+    if (step == 1 && length * std::min(ratio, 1.0) < position_tolerance)
       return guess;
+    if (length > near || ratio > fast)
+      factors.reset();
     before = length;
   }
   no_convergence();

@@ -4,7 +4,7 @@
 
 namespace capsule {
 
-// A steady state is found when the last correction moves no node further than this.
+// A steady state is found when the next correction would move no node further than this.
 constexpr double position_tolerance = 1e-9;
 constexpr int most_iterations = 25;
 

@@ -23,11 +23,12 @@ double tube_for(double tip) {
 
 } // namespace
 
-SteadySystem::SteadySystem(const Case &input, const Resolution &resolution, const Vector &node_angle)
+SteadySystem::SteadySystem(const Case &input, const Resolution &resolution, const Vector &node_angle,
+                           double tip)
     : resolution_(resolution), membrane_(standard_membrane(input.capsule, input.membrane, resolution)) {
   membrane_.node_angle = node_angle;
   set_parameters(input);
-  half_length_ = tube_for(membrane_.reference.head(nodes()).cwiseAbs().maxCoeff());
+  half_length_ = tube_for(tip);
   build_flow();
 }
 

@@ -18,8 +18,9 @@ namespace capsule {
 
 class SteadySystem {
 public:
-  // What stays fixed: pore, type of flow, and the mesh, with a node at each of these angles (node_density.hpp).
-  SteadySystem(const Case &input, const Resolution &resolution, const Vector &node_angle);
+  // What stays fixed: pore, type of flow, and the mesh, with a node at each of these angles (node_density.hpp). The tube
+  // is long enough for a capsule that reaches from -tip to tip.
+  SteadySystem(const Case &input, const Resolution &resolution, const Vector &node_angle, double tip);
 
   // Everything else in the equations: capsule, membrane, capillary number.
   void set_parameters(const Case &input);

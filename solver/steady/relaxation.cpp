@@ -1,0 +1,49 @@
+#include "steady/relaxation.hpp"
+#include "base/failure.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace capsule {
+
+Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
+  constexpr int most_steps = 100;
+  constexpr double first_step = 0.2, shortest_step = 1e-5, long_step = 2;
+  constexpr double intended = 0.25, too_much = 0.7; // part of the motion that its linearisation misses
+  constexpr double near = 3e-3;                     // a change that Newton's method can take up
+  const Eigen::Index n2 = 2 * system.nodes();
+  shape.head(n2 / 2).array() -= system.residual(shape)[n2]; // its centre to where the equations want it
+  system.fit_tube(shape);
+  SteadySystem::Linearisation linear = system.linearise(shape);
+  double step = first_step, most_growth = 10;
+  for (int k = 0; k < most_steps && step > shortest_step; ++k) {
+    throw_if_interrupted(control);
+    Matrix implicit = linear.jacobian;
+    implicit.diagonal().head(n2).array() -= 1 / step;
+    const Vector change = implicit.partialPivLu().solve(-linear.residual);
+    double error = std::numeric_limits<double>::infinity();
+    std::optional<SteadySystem::Linearisation> next;
+    if (system.admissible_step(shape, change) == 1)
+      try {
+        system.fit_tube(shape + change);
+        next = system.linearise(shape + change);
+        error = (next->residual - change / step).head(n2).cwiseAbs().maxCoeff() /
+                linear.residual.head(n2).cwiseAbs().maxCoeff();
+      } catch (const NumericsFailure &) { // no capsule: the step is too long
+      }
+    if (error < too_much) {
+      shape += change;
+      linear = std::move(*next);
+      if (step > long_step && change.head(n2).cwiseAbs().maxCoeff() < near)
+        return shape;
+    }
+    step *= std::clamp(intended / error, 0.25, most_growth);
+    most_growth = error < too_much ? std::min(2 * most_growth, 10.0) : 1.0;
+  }
+  throw NumericsFailure("unresolved", "the profile to begin with does not come to rest in the tube",
+                        "leave --from away, or begin with a profile of a later x_g");
+}
+
+} // namespace capsule
