@@ -1,15 +1,16 @@
 #include "flow/flow.hpp"
 #include "base/failure.hpp"
 #include "flow/reciprocal.hpp"
+#include <stdexcept>
 #include <utility>
 
 namespace capsule {
 namespace {
 
-Matrix single_with_wall(const Interaction &interaction, const RowMatrix &answer_of_wall, double factor) {
+Matrix single_with_wall(const Interaction &interaction, const RowMatrix &answer_of_wall) {
   Matrix layer = interaction.single_layer();
   layer -= answer_of_wall * interaction.single_at_wall();
-  return factor * layer;
+  return stokeslet_factor * layer;
 }
 
 Matrix double_with_wall(const Interaction &interaction, const RowMatrix &answer_of_wall) {
@@ -22,90 +23,101 @@ Matrix double_with_wall(const Interaction &interaction, const RowMatrix &answer_
 
 NodalLayers nodal_layers(const Interaction &interaction) {
   const RowMatrix answer = interaction.answer_of_wall();
-  return {single_with_wall(interaction, answer, stokeslet_factor), double_with_wall(interaction, answer)};
+  return {single_with_wall(interaction, answer), double_with_wall(interaction, answer)};
 }
 
 Flow::Flow(Wall wall, MembraneMesh mesh, const FlowParameters &parameters, double solver_tolerance)
-    : wall_(std::move(wall)), mesh_(std::move(mesh)), parameters_(parameters),
-      solver_tolerance_(solver_tolerance) {}
+    : wall_(std::move(wall)), mesh_(std::move(mesh)), drive_(parameters.drive),
+      image_shifts_(parameters.image_shifts), beta_(Vector::Ones(2 * mesh_.nodes)),
+      excess_viscosity_(Vector::Zero(2 * mesh_.nodes)), solver_tolerance_(solver_tolerance) {
+  const std::vector<double> &ratios = parameters.viscosity_ratios;
+  if (!ratios.empty() && ratios.size() != mesh_.parts.size())
+    throw std::invalid_argument("each membrane has a viscosity ratio");
+  for (std::size_t k = 0; k < ratios.size(); ++k) {
+    const std::vector<Eigen::Index> rows = mesh_.rows(k);
+    beta_(rows).setConstant((1 + ratios[k]) / 2);
+    excess_viscosity_(rows).setConstant(ratios[k] - 1);
+    equal_viscosities_ = equal_viscosities_ && ratios[k] == 1;
+  }
+}
 
 Interaction Flow::interact(const Vector &position) const {
-  return interact(position, has_inner_flow() ? Layers::both : Layers::single);
+  return interact(position, equal_viscosities_ ? Layers::single : Layers::both);
 }
 
 Interaction Flow::interact(const Vector &position, Layers layers) const {
-  return {wall_, mesh_, position, layers, parameters_.image_shifts, parameters_.drive};
+  return {wall_, mesh_, position, layers, image_shifts_, drive_};
 }
 
-// beta - (lambda - 1) (D_MM - C A^(-1) D_BM) on nodal velocities.
+// Of the double layer; empty if there is none.
+Vector Flow::double_density(const Vector &velocity) const {
+  return equal_viscosities_ ? Vector() : excess_viscosity_.cwiseProduct(velocity);
+}
+
+// beta - (D_MM - C A^(-1) D_BM) (lambda - 1) on nodal velocities.
 Matrix Flow::membrane_operator(const Matrix &double_layer) const {
-  const double lambda = parameters_.viscosity_ratio;
-  return (1 + lambda) / 2 * Matrix::Identity(double_layer.rows(), double_layer.cols()) -
-         (lambda - 1) * double_layer;
+  Matrix matrix = -double_layer * excess_viscosity_.asDiagonal();
+  matrix.diagonal() += beta_;
+  return matrix;
 }
 
+// The same applied to a velocity.
 Vector Flow::apply_membrane_operator(const Interaction &interaction, const Vector &velocity) const {
-  const double lambda = parameters_.viscosity_ratio;
-  Vector layer = interaction.double_layer(velocity);
-  layer -= interaction.answer_of_wall(interaction.double_at_wall(velocity));
-  return (1 + lambda) / 2 * velocity - (lambda - 1) * layer;
+  const Vector density = double_density(velocity);
+  return beta_.cwiseProduct(velocity) - interaction.double_layer(density) +
+         interaction.answer_of_wall(interaction.double_at_wall(density));
 }
 
 // right is the velocity without what v does and without the wall, at_wall what is on the wall without v: the
 // wall's answer to both is found at once.
 Vector Flow::membrane_velocity(const Interaction &interaction, const Vector &right, const Vector &at_wall,
                                Recycled &recycled) const {
-  const double lambda = parameters_.viscosity_ratio;
-  const double excess = lambda - 1;
   return solve_recycled(
       interaction.shape().position, solver_tolerance_, recycled,
       [&](const Vector &velocity) {
-        Vector residual = right + excess * interaction.double_layer(velocity) - (1 + lambda) / 2 * velocity;
-        residual -= interaction.answer_of_wall(at_wall + excess * interaction.double_at_wall(velocity));
-        return residual;
+        const Vector density = double_density(velocity);
+        return Vector(right + interaction.double_layer(density) - beta_.cwiseProduct(velocity) -
+                      interaction.answer_of_wall(at_wall + interaction.double_at_wall(density)));
       },
       [&](const Vector &velocity) { return apply_membrane_operator(interaction, velocity); },
       [&] { return membrane_operator(double_with_wall(interaction, interaction.answer_of_wall())); });
 }
 
-FlowState Flow::solve(const Interaction &interaction, const Vector &load, Recycled &recycled) const {
-  const double factor = stokeslet_factor / parameters_.capillary_number;
-  const Vector strength = factor * mesh_.at_panels(load);
+FlowState Flow::solve(const Interaction &interaction, const Vector &f, Recycled &recycled) const {
+  const Vector density = stokeslet_factor * f;
   FlowState state;
-  state.velocity = interaction.base_velocity() + interaction.single_from_panels() * strength;
-  Vector at_wall = factor * interaction.single_at_wall(load); // b of the head comment
-  if (has_inner_flow()) {
-    state.velocity = membrane_velocity(interaction, state.velocity, at_wall, recycled);
-    at_wall += (parameters_.viscosity_ratio - 1) * interaction.double_at_wall(state.velocity);
-  } else {
+  state.velocity = interaction.base_velocity() + interaction.single_layer(density);
+  Vector at_wall = interaction.single_at_wall(density); // b of the head comment
+  if (equal_viscosities_) {
     state.velocity -= interaction.answer_of_wall(at_wall);
+  } else {
+    state.velocity = membrane_velocity(interaction, state.velocity, at_wall, recycled);
+    at_wall += interaction.double_at_wall(double_density(state.velocity));
   }
   if (!state.velocity.allFinite())
     throw NumericsFailure("not-a-number", "the membrane's velocity is not a number",
                           "try a finer mesh.membrane");
   state.pressure_drop = wall_.pressure_drop(at_wall);
-  state.flow_rate = 1 - state.pressure_drop / parameters_.drive.resistance;
+  state.flow_rate = 1 - state.pressure_drop / drive_.resistance;
   return state;
 }
 
-double Flow::reciprocal_pressure_drop(const Interaction &interaction, const Vector &load,
-                                      const FlowState &state, Recycled &traction) const {
-  return capsule::reciprocal_pressure_drop(interaction, load, state.velocity, parameters_.capillary_number,
-                                           parameters_.viscosity_ratio, solver_tolerance_, traction);
+double Flow::reciprocal_pressure_drop(const Interaction &interaction, const Vector &f, const FlowState &state,
+                                      Recycled &traction) const {
+  return capsule::reciprocal_pressure_drop(interaction, f, double_density(state.velocity), solver_tolerance_,
+                                           traction);
 }
 
-Vector Flow::outer_velocity(const Targets &points, const Interaction &interaction, const Vector &load,
+Vector Flow::outer_velocity(const Targets &points, const Interaction &interaction, const Vector &f,
                             const FlowState &state) const {
-  const Vector single = stokeslet_factor / parameters_.capillary_number * load;
-  const Vector dbl = (parameters_.viscosity_ratio - 1) * state.velocity;
   return state.flow_rate * wall_.base_velocity(points) +
-         interaction.velocity_at(points, single, has_inner_flow() ? dbl : Vector());
+         interaction.velocity_at(points, stokeslet_factor * f, double_density(state.velocity));
 }
 
 Matrix Flow::mobility(const Interaction &interaction, Recycled &recycled) const {
   const RowMatrix answer = interaction.answer_of_wall();
-  Matrix single = single_with_wall(interaction, answer, stokeslet_factor / parameters_.capillary_number);
-  if (!has_inner_flow())
+  Matrix single = single_with_wall(interaction, answer);
+  if (equal_viscosities_)
     return single;
   recycled.inverse = inverse_of(membrane_operator(double_with_wall(interaction, answer)));
   return recycled.inverse * single;

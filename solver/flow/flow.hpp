@@ -1,13 +1,14 @@
 #pragma once
-// The flow that the membranes' shapes and loads make, eq. 16, with the fixed wall eliminated once.
+// The flow that the membranes' shapes and loads make, eq. 16, with the fixed wall eliminated once. The load is handed in
+// as f = q/epsilon.
 //
 // Everything is split into the flow without membranes (subscript e, found once) and the disturbance, which is
 // at rest on the exit section S_P and has a uniform pressure there:
 //
 //   - on the wall and the exit 0 = A phi + b, with phi = (traction on S_B; P') and
-//     b = S_BM q/(8 pi eps) + (lambda - 1) D_BM v
+//     b = S_BM f/(8 pi) + D_BM (lambda - 1) v
 //
-//   - on the membranes (1 + lambda)/2 v = v_e + S_MM q/(8 pi eps) + (lambda - 1) D_MM v - C A^(-1) b
+//   - on the membranes (1 + lambda)/2 v = v_e + S_MM f/(8 pi) + D_MM (lambda - 1) v - C A^(-1) b
 //
 // A is inverted once (wall.hpp); lambda = 1 leaves no system to solve in a step, any other lambda one of the
 // membranes' size. Lengths, velocities and pressures are in the paper's scales. Derivation:
@@ -20,8 +21,7 @@
 namespace capsule {
 
 struct FlowParameters {
-  double capillary_number = 1; // epsilon
-  double viscosity_ratio = 1;  // lambda
+  std::vector<double> viscosity_ratios = {}; // lambda of each membrane; empty: 1
   Drive drive = {};
   std::vector<double> image_shifts = {};
 };
@@ -45,19 +45,18 @@ public:
   // this flow.
   Interaction interact(const Vector &position) const;
   Interaction interact(const Vector &position, Layers layers) const;
-  // load: nodal q, 2N.
-  FlowState solve(const Interaction &interaction, const Vector &load, Recycled &recycled) const;
+  FlowState solve(const Interaction &interaction, const Vector &f, Recycled &recycled) const;
   // Delta P by the reciprocal theorem.
-  double reciprocal_pressure_drop(const Interaction &interaction, const Vector &load, const FlowState &state,
+  double reciprocal_pressure_drop(const Interaction &interaction, const Vector &f, const FlowState &state,
                                   Recycled &traction) const;
-  // Velocity of the outer liquid at points off the membranes, 2 n, in the flow that this load has made.
-  Vector outer_velocity(const Targets &points, const Interaction &interaction, const Vector &load,
+  // Velocity of the outer liquid at points off the membranes, 2 n, in the flow that f has made.
+  Vector outer_velocity(const Targets &points, const Interaction &interaction, const Vector &f,
                         const FlowState &state) const;
-  // d velocity/d load for frozen shapes, 2N x 2N.
+  // dv/df for frozen shapes, 2N x 2N.
   Matrix mobility(const Interaction &interaction, Recycled &recycled) const;
 
 private:
-  bool has_inner_flow() const { return parameters_.viscosity_ratio != 1; }
+  Vector double_density(const Vector &velocity) const;
   Matrix membrane_operator(const Matrix &double_layer) const;
   Vector apply_membrane_operator(const Interaction &interaction, const Vector &velocity) const;
   Vector membrane_velocity(const Interaction &interaction, const Vector &right, const Vector &at_wall,
@@ -65,7 +64,10 @@ private:
 
   Wall wall_;
   MembraneMesh mesh_;
-  FlowParameters parameters_;
+  Drive drive_;
+  std::vector<double> image_shifts_;
+  Vector beta_, excess_viscosity_; // (1 + lambda)/2 and lambda - 1 of each component, 2N
+  bool equal_viscosities_ = true;
   double solver_tolerance_;
 };
 

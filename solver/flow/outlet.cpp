@@ -15,6 +15,11 @@ Outlet plane_outlet(double x, double near_tolerance) {
   curve.x_zeta = Vector::Zero(points);
   curve.r_zeta = Vector::Constant(points, -1);
   complete(curve);
+  const Vector none = Vector::Zero(points);
+  outlet.base_traction.resize(2 * points);
+  outlet.base_traction << none, curve.r.unaryExpr(&poiseuille_shear);
+  outlet.base_velocity.resize(2 * points);
+  outlet.base_velocity << curve.r.unaryExpr(&poiseuille_velocity), none;
   outlet.row_points = {Vector::Constant(1, x), Vector::Zero(1)};
   outlet.row_weights = Vector::Unit(2, 0);
   outlet.base_row = poiseuille_velocity(0) / 2; // beta = 1/2 on the section
@@ -29,18 +34,18 @@ RowMatrix Outlet::single_layer(const Targets &points) const {
 }
 
 Vector Outlet::column(const RowMatrix &single) const {
-  return -stokeslet_factor * single.leftCols(curve.size()).rowwise().sum(); // f_x = -P'
+  Vector normal(2 * curve.size());
+  normal << curve.normal_x, curve.normal_r;
+  return -stokeslet_factor * (single * normal);
 }
 
-Vector Outlet::base_velocity(const Targets &points, const RowMatrix &single) const {
-  const Eigen::Index m = curve.size();
+Vector Outlet::base_field(const Targets &points, const RowMatrix &single) const {
   RowMatrix double_layer;
   assemble_layer(ring_stresslet, points, curve, nullptr, near, double_layer);
   for (Eigen::Index i = 0; i < points.size(); ++i)
     if (points.x[i] == curve.x[0]) // a plane's double layer vanishes on the plane itself
       double_layer.row(i).setZero();
-  return -4 * stokeslet_factor * (single.rightCols(m) * curve.r) +
-         double_layer.leftCols(m) * curve.r.unaryExpr(&poiseuille_velocity);
+  return stokeslet_factor * (single * base_traction) + double_layer * base_velocity;
 }
 
 Vector Outlet::row(const RingKernel &kernel, const Rings &rings) const {

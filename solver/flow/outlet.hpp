@@ -9,7 +9,9 @@
 namespace capsule {
 
 struct Outlet {
-  Curve curve;        // from the wall to the axis
+  Curve curve; // from the wall to the axis
+  // What is known of the undisturbed flow: the traction besides the uniform pressure, and the velocity, 2 m.
+  Vector base_traction, base_velocity;
   Targets row_points; // where the row asks for the velocity, and the weights of both components there
   Vector row_weights;
   double base_row = 0; // what the row says of the undisturbed flow's layers
@@ -19,7 +21,7 @@ struct Outlet {
   RowMatrix single_layer(const Targets &points) const;
   // Velocity made by the pressure P' = 1, and by what is known of the undisturbed flow.
   Vector column(const RowMatrix &single) const;
-  Vector base_velocity(const Targets &points, const RowMatrix &single) const;
+  Vector base_field(const Targets &points, const RowMatrix &single) const;
   // The row for point forces on rings (ring_stokeslet), or for velocities with normals (ring_stresslet): axial, then
   // radial components, without weights of the rings.
   Vector row(const RingKernel &kernel, const Rings &rings) const;

@@ -38,16 +38,13 @@ Vector base_traction(const Interaction &interaction, double tolerance, Recycled 
 
 } // namespace
 
-double reciprocal_pressure_drop(const Interaction &interaction, const Vector &load, const Vector &velocity,
-                                double capillary_number, double viscosity_ratio, double tolerance,
-                                Recycled &traction) {
-  // int f dA = 2 pi sum area f at the nodes
+double reciprocal_pressure_drop(const Interaction &interaction, const Vector &f,
+                                const Vector &excess_velocity, double tolerance, Recycled &traction) {
   const Vector area2 = interaction.shape().nodes.area.replicate(2, 1);
-  double sum = -(load.array() * interaction.base_velocity().array() * area2.array()).sum() / capillary_number;
-  if (viscosity_ratio != 1)
-    sum += (viscosity_ratio - 1) *
-           (velocity.array() * base_traction(interaction, tolerance, traction).array() * area2.array()).sum();
-  return 2 * sum;
+  double sum = -area2.dot(f.cwiseProduct(interaction.base_velocity()));
+  if (excess_velocity.size() > 0)
+    sum += area2.dot(excess_velocity.cwiseProduct(base_traction(interaction, tolerance, traction)));
+  return 2 * sum; // an integral over the area is 2 pi times the sum
 }
 
 } // namespace capsule

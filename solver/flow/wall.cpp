@@ -97,7 +97,7 @@ RowMatrix Wall::matrix() const {
 void Wall::solve_base_flow() {
   const Eigen::Index n = curve_.size();
   const auto of_outlet = [&](const Targets &points) {
-    return outlet_.base_velocity(points, outlet_.single_layer(points));
+    return outlet_.base_field(points, outlet_.single_layer(points));
   };
   const Vector at_wall = of_outlet({curve_.x, curve_.r});
   Vector known(2 * n + 1);
@@ -121,14 +121,14 @@ Vector Wall::base_velocity(const Targets &points) const {
   if (closed_form_ != nullptr)
     return closed_form_(points);
   return response(points) * base_forces_.cwiseQuotient(weights_) +
-         outlet_.base_velocity(points, outlet_.single_layer(points));
+         outlet_.base_field(points, outlet_.single_layer(points));
 }
 
 Vector Wall::base_velocity(const Targets &points, const RowMatrix &from_forces,
                            const RowMatrix &outlet_single) const {
   if (closed_form_ != nullptr)
     return closed_form_(points);
-  return from_forces * base_forces_ + outlet_.base_velocity(points, outlet_single);
+  return from_forces * base_forces_ + outlet_.base_field(points, outlet_single);
 }
 
 Matrix Wall::base_traction() const {

@@ -24,15 +24,18 @@ Dynamics standard_dynamics(const Case &physics) {
       make_flow(scene->pore, physics.flow, scene->membrane.basis, choose_resolution(physics).flow));
   const auto recycled = std::make_shared<RecycledFlow>();
   const FlowType type = physics.flow.type;
-  dynamics.forget = [recycled] { *recycled = {}; };
-  dynamics.flow = [type, flow, scene, recycled](const Vector &position) {
-    require_capsule(scene->pore, position, advice);
-    return flow->solve(flow->interact(place_in_flow(type, position)),
-                       membrane_load(scene->membrane, position), recycled->velocity);
+  const double capillary_number = physics.flow.capillary_number;
+  const auto f = [scene, capillary_number](const Vector &position) { // of flow.hpp
+    return Vector(membrane_load(scene->membrane, position) / capillary_number);
   };
-  dynamics.report = [type, flow, scene, recycled](const Vector &position, bool regular) {
+  dynamics.forget = [recycled] { *recycled = {}; };
+  dynamics.flow = [type, flow, scene, f, recycled](const Vector &position) {
+    require_capsule(scene->pore, position, advice);
+    return flow->solve(flow->interact(place_in_flow(type, position)), f(position), recycled->velocity);
+  };
+  dynamics.report = [type, flow, f, recycled](const Vector &position, bool regular) {
     const Interaction interaction = flow->interact(place_in_flow(type, position));
-    const Vector load = membrane_load(scene->membrane, position);
+    const Vector load = f(position);
     RecycledFlow copy = *recycled;
     FlowState state = flow->solve(interaction, load, copy.velocity);
     state.pressure_drop_reciprocal = flow->reciprocal_pressure_drop(interaction, load, state, copy.traction);
@@ -40,9 +43,9 @@ Dynamics standard_dynamics(const Case &physics) {
       recycled->traction = std::move(copy.traction);
     return state;
   };
-  dynamics.jacobian = [flow, scene, recycled](const Vector &position) -> Matrix {
+  dynamics.jacobian = [flow, scene, capillary_number, recycled](const Vector &position) -> Matrix {
     return flow->mobility(flow->interact(position), recycled->velocity) *
-           frozen_load_jacobian(scene->membrane, position, 1);
+           frozen_load_jacobian(scene->membrane, position, capillary_number);
   };
   return dynamics;
 }

@@ -12,7 +12,7 @@ Flow make_flow(const std::optional<Pore> &pore, const FlowSpec &spec, const Meri
                const FlowResolution &resolution) {
   return {make_wall(pore, spec.type, resolution),
           make_membrane_mesh(basis, resolution),
-          {.capillary_number = spec.capillary_number, .viscosity_ratio = spec.viscosity_ratio},
+          {.viscosity_ratios = {spec.viscosity_ratio}},
           resolution.solver_tolerance};
 }
 

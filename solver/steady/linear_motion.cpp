@@ -1,6 +1,5 @@
 #include "steady/linear_motion.hpp"
 #include "membrane/load.hpp"
-#include <numbers>
 #include <utility>
 
 namespace capsule {
@@ -165,9 +164,8 @@ LinearMotion linear_motion(const Interaction &interaction, const Membrane &membr
   const Vector shear = inner_shear(layers, at_nodes, nodal_area(membrane, position), velocity);
   Matrix equal_viscosities =
       layers.single * change - 0.5 * jump - layers.dbl * jump +
-      interaction.single_from_panels() *
-          beyond_nodes(at_panels, carried_load_change(at_panels, nodal_change, load), change) /
-          (8 * std::numbers::pi) -
+      stokeslet_factor * interaction.single_from_panels() *
+          beyond_nodes(at_panels, carried_load_change(at_panels, nodal_change, load), change) -
       interaction.double_from_panels() * beyond_nodes(at_panels, slip(at_panels), jump) +
       advance_of_inner_flow(at_nodes, shear, velocity);
   return {std::move(equal_viscosities), std::move(layers.single), std::move(layers.dbl)};

@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <numbers>
+#include <stdexcept>
 
 using namespace capsule;
 
@@ -196,10 +197,10 @@ BOOST_AUTO_TEST_CASE(images_are_explicit_copies) {
         1e-11);
 }
 
-// Of viscous membranes both routes to the pressure drop agree when they are close; far apart each moves as if it were
-// alone.
-BOOST_AUTO_TEST_CASE(viscous_pairs_close_and_far) {
-  const FlowParameters parameters{.viscosity_ratio = 5};
+// Membranes of different viscosity ratios: both routes to the pressure drop agree when they are close; far apart each
+// moves as if it were alone.
+BOOST_AUTO_TEST_CASE(each_membrane_has_its_viscosity_ratio) {
+  const FlowParameters parameters{.viscosity_ratios = {0.2, 5}};
   for (const double distance : {0.75, 5.0}) {
     const std::vector<Spheroid> pair{{distance, 0.6, 0.8, 40}, {-distance, 0.5, 0.6, 40}};
     const MembraneMesh mesh = mesh_of(pair);
@@ -215,7 +216,8 @@ BOOST_AUTO_TEST_CASE(viscous_pairs_close_and_far) {
     for (const std::size_t k : {0, 1}) {
       const MembraneMesh own = mesh_of({pair[k]});
       const auto rows = mesh.rows(k);
-      const Flow alone(tube(distance + 0.6), own, parameters, 1e-10);
+      const Flow alone(tube(distance + 0.6), own, {.viscosity_ratios = {parameters.viscosity_ratios[k]}},
+                       1e-10);
       Recycled none;
       const FlowState isolated = alone.solve(alone.interact(position(rows)), f(rows), none);
       const double difference = largest(state.velocity(rows) - isolated.velocity);
@@ -237,9 +239,9 @@ BOOST_AUTO_TEST_CASE(constant_pressure_is_a_closure) {
   const MembraneMesh mesh = mesh_of(pair);
   const Vector position = position_of(pair, mesh), f = smooth_load(mesh), none = Vector::Zero(2 * mesh.nodes);
   const double resistance = 20;
-  for (const double ratio : {1.0, 5.0}) {
-    const Flow given(tube(1.4), mesh, {.viscosity_ratio = ratio}, 1e-11);
-    const Flow driven(tube(1.4), mesh, {.viscosity_ratio = ratio, .drive = {resistance}}, 1e-11);
+  for (const std::vector<double> &ratios : {std::vector<double>{}, std::vector<double>{0.2, 5}}) {
+    const Flow given(tube(1.4), mesh, {.viscosity_ratios = ratios}, 1e-11);
+    const Flow driven(tube(1.4), mesh, {.viscosity_ratios = ratios, .drive = {resistance}}, 1e-11);
     const auto solved = [&](const Flow &flow, const Vector &load) {
       Recycled recycled;
       return flow.solve(flow.interact(position), load, recycled);
@@ -276,6 +278,11 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_under_constant_pressure) {
   BOOST_TEST(std::abs(q - 0.88206) < 1e-5);
   BOOST_TEST(std::abs(driven.speeds[0] - q * given.speeds[0]) < 1e-8);
   BOOST_TEST(std::abs(driven.reciprocal - q * given.reciprocal) < 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(as_many_viscosity_ratios_as_membranes) {
+  const MembraneMesh mesh = make_membrane_mesh(spectral_basis(16), {});
+  BOOST_CHECK_THROW(Flow(Wall(), mesh, {.viscosity_ratios = {1, 5}}, 1e-10), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -49,7 +49,7 @@ double at_tips(const std::string &directory) {
       make_flow(scene.pore, physics.flow, scene.membrane.basis, choose_resolution(physics).flow);
   const Vector &position = outcome.last.position;
   const Interaction interaction = flow.interact(position);
-  const Vector load = membrane_load(scene.membrane, position);
+  const Vector load = membrane_load(scene.membrane, position) / physics.flow.capillary_number;
   Recycled recycled;
   const FlowState state = flow.solve(interaction, load, recycled);
   const Vector x = position.head(scene.membrane.basis.size());
