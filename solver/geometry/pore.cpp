@@ -1,10 +1,12 @@
 #include "geometry/pore.hpp"
 #include "base/failure.hpp"
 #include "geometry/quadrature.hpp"
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace capsule {
 namespace {
@@ -74,23 +76,14 @@ double hyperbola_parameter(const Pore &pore, double arc) {
 double hyperbola_distance(const Pore &pore, double x, double r) {
   const double k = pore.cosine, c = k / pore.sine;
   const auto radius = [&](double t) { return std::sqrt(1 + k * k * t * t); };
-  // The foot lies between the lip and the point of the wall at the distance of (x, r) from the origin, or at
-  // its x. Newton's method, and halving where it would leave the bracket.
-  double low = 0;
-  double high = (std::hypot(x, r) + 1) * pore.sine / (k * k);
-  double t = -x / (k * c);
-  for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
-    const double rho = radius(t);
-    const double value = k * k * t * (1 / (pore.sine * pore.sine) - r / rho) + k * c * x;
-    const double slope = k * k * (1 / (pore.sine * pore.sine) - r / (rho * rho * rho));
-    (value < 0 ? low : high) = t;
-    const double newton = t - value / slope;
-    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
-    const double step = std::abs(next - t);
-    t = next;
-    if (step <= 1e-15 * high)
-      break;
-  }
+  const auto condition = [&](double t) {
+    const double rho = radius(t), flat = 1 / (pore.sine * pore.sine);
+    return std::pair(k * k * t * (flat - r / rho) + k * c * x, k * k * (flat - r / (rho * rho * rho)));
+  };
+  // The foot lies between the lip and the point of the wall at the distance of (x, r) from the origin, or at its x.
+  const double farthest = (std::hypot(x, r) + 1) * pore.sine / (k * k);
+  constexpr int digits = 48; // binary, of 53
+  const double t = boost::math::tools::newton_raphson_iterate(condition, -x / (k * c), 0.0, farthest, digits);
   const double distance = std::hypot(x + k * c * t, r - radius(t));
   return r <= wall_radius(pore, x) ? distance : -distance;
 }

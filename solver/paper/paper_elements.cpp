@@ -1,4 +1,5 @@
 #include "paper/paper_elements.hpp"
+#include "geometry/quadrature.hpp"
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
@@ -24,8 +25,9 @@ Vector legendre_b(Eigen::Index count) {
 
 } // namespace
 
-UnitRule gauss_rule(int points) {
-  return rule_from_recurrence(Vector::Constant(points, 0.5), legendre_b(points));
+UnitRule unit_gauss_rule(int points) {
+  const GaussRule rule = gauss_legendre(points);
+  return {(1 + rule.nodes.array()) / 2, rule.weights / 2};
 }
 
 // The modified Chebyshev algorithm: the recurrence for ln(1/t) from its moments against the Legendre

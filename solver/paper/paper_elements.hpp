@@ -13,7 +13,7 @@ struct UnitRule {
   Vector weights;
 };
 // Integral of f(t), exact below degree 2 points.
-UnitRule gauss_rule(int points);
+UnitRule unit_gauss_rule(int points);
 // Integral of ln(1/t) f(t), exact below degree 2 points.
 UnitRule logarithmic_rule(int points);
 

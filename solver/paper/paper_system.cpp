@@ -1,6 +1,7 @@
 #include "paper/paper_system.hpp"
 #include "base/failure.hpp"
 #include "integrals/ring_kernel.hpp"
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -36,7 +37,7 @@ ElementCurve make_curve(const Vector &x, const Vector &r, const MeridianSpline &
 
 ElementRules make_rules() {
   ElementRules rules;
-  rules.gauss = gauss_rule(gauss_points);
+  rules.gauss = unit_gauss_rule(gauss_points);
   rules.logarithm = logarithmic_rule(logarithm_points);
   rules.at_gauss = tabulate_shapes(rules.gauss.nodes);
   rules.at_first = tabulate_shapes(rules.logarithm.nodes);
@@ -50,13 +51,10 @@ struct Grading {
   double smallest, growth, largest;
   double count(double a) const { return a / largest + std::log1p(growth * a / smallest) / growth; }
   double distance(double share, double length) const { // where count is `share` of that of the whole length
-    double low = 0, high = length;
     const double wanted = share * count(length);
-    for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (low + high);
-      (count(middle) < wanted ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
+    const auto [low, high] = boost::math::tools::bisect([&](double a) { return count(a) - wanted; }, 0.0,
+                                                        length, boost::math::tools::eps_tolerance<double>());
+    return (low + high) / 2;
   }
 };
 

@@ -58,7 +58,7 @@ double hyperboloid_loss(double degrees) {
 } // namespace
 
 BOOST_AUTO_TEST_CASE(rules_are_exact) {
-  const UnitRule gauss = gauss_rule(5), logarithm = logarithmic_rule(12);
+  const UnitRule gauss = unit_gauss_rule(5), logarithm = logarithmic_rule(12);
   for (int k = 0; k < 24; ++k) {
     BOOST_CHECK_CLOSE(logarithm.weights.dot(logarithm.nodes.array().pow(k).matrix()),
                       1.0 / ((k + 1) * (k + 1)), 1e-11);
@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(load_does_the_work_of_the_energy) {
     physics.membrane.bending_ratio = 0.1;
     const PaperLoad load = make_paper_load(physics.capsule, physics.membrane, elements);
     const MeridianBasis basis = spline_basis(elements);
-    const UnitRule rule = gauss_rule(5);
+    const UnitRule rule = unit_gauss_rule(5);
     Vector zeta(5 * elements), weights(5 * elements);
     for (Eigen::Index q = 0; q < zeta.size(); ++q) {
       const Eigen::Index element = q / 5;
