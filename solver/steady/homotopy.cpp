@@ -18,7 +18,7 @@ constexpr double small_radius = 0.6;
 constexpr double stiff_bending = 2e-2; // a shell that does not buckle
 // From this one relaxes. Softer ones buckle on the way to a shape that does not.
 constexpr double bending_to_relax = 1e-2;
-constexpr int most_to_relax_on = 100; // nodes
+constexpr int most_to_relax_on = 70; // nodes
 
 // On the finest mesh a stretch above this that has grown since the fold counts as running away, too.
 constexpr double large_stretch = 2;
@@ -213,12 +213,20 @@ Homotopy in_a_flow(double strength, const Case &target, const Control &control) 
 } // namespace
 
 SteadyState by_homotopy(const Case &input, const Control &control) {
-  try {
-    return by_relaxation(input, control);
-  } catch (const NumericsFailure &) { // it may run away, or buckle on the way: branches tell
+  const double flow = input.flow.capillary_number;
+  for (const double part : {1.0, 0.5, 0.25, 0.125}) { // of the flow, in which the capsule may come to rest
+    Case weaker = input;
+    weaker.flow.capillary_number *= part;
+    try {
+      Homotopy homotopy(input, weaker, by_relaxation(weaker, control), control);
+      homotopy.vary(flow_key, flow);
+      return homotopy.state();
+    } catch (const NumericsFailure &failure) { // it may run away, or buckle on the way: other branches tell
+      if (failure.kind == "fold")
+        throw NumericsFailure("fold", fmt::format("no steady state: {}", failure.what()), failure.advice);
+    }
   }
   std::optional<NumericsFailure> first;
-  const double flow = input.flow.capillary_number;
   const double weakest = input.flow.type == FlowType::extension ? 0 : 0.03; // only a tube squeezes
   for (const double strength : {std::clamp(flow, weakest, 0.06), 0.02, 0.12}) {
     bool only_flow_is_left = false;

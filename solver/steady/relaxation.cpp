@@ -9,17 +9,21 @@
 namespace capsule {
 
 Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
-  constexpr int most_steps = 100;
+  constexpr int most_steps = 300;
   constexpr double first_step = 0.2, shortest_step = 1e-5, long_step = 2;
   constexpr double intended = 0.25, too_much = 0.7; // part of the motion that its linearisation misses
   constexpr double near = 3e-3;                     // a change that Newton's method can take up
+  constexpr double at_rest = 1e-9;                  // a velocity that is none
+  constexpr double torn = 6;                        // stretch of a membrane that runs away
   const Eigen::Index n2 = 2 * system.nodes();
   shape.head(n2 / 2).array() -= system.residual(shape)[n2]; // its centre to where the equations want it
   system.fit_tube(shape);
   SteadySystem::Linearisation linear = system.linearise(shape);
   double step = first_step, most_growth = 10;
-  for (int k = 0; k < most_steps && step > shortest_step; ++k) {
+  for (int k = 0; k < most_steps && step > shortest_step && system.largest_stretch(shape) < torn; ++k) {
     throw_if_interrupted(control);
+    if (linear.residual.head(n2).cwiseAbs().maxCoeff() < at_rest)
+      return shape;
     Matrix implicit = linear.jacobian;
     implicit.diagonal().head(n2).array() -= 1 / step;
     const Vector change = implicit.partialPivLu().solve(-linear.residual);
