@@ -362,7 +362,7 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
     return "";
   return fmt::format(
       "not steady yet{}: the membrane still moves with {}{:.2g} relative to its centre; {} leads nearer, "
-      "`capsule steady` finds the steady state",
+      "`capsule steady` tells whether there is a steady state",
       results.size() == 1 ? "" : fmt::format(", {} of {}", unsteady, counted(results.size(), "run")),
       unsteady == 1 ? "" : "up to ", fastest,
       by_x_g ? "a larger until.x_g (with pore.exit_x)" : "a larger until.time");

@@ -21,6 +21,7 @@ constexpr Branch::Steps steps{.first = 0.02, .largest = 0.04, .tolerance = 1e-7}
 constexpr double accuracy_of_folds = 1e-6;
 constexpr int most_nodes_of_a_branch = 300;
 constexpr int most_points = 500;
+constexpr double farthest_stretch = 10; // to which a branch without folds is followed
 
 // The keys along which a branch may go.
 std::vector<std::string> keys_of_branches() {
@@ -100,12 +101,15 @@ public:
         outcome().message = fmt::format("the branch turns back and does not reach {}", path_.text(1));
       return true;
     }
-    const bool runs_away = state_.system->largest_stretch(branch_->point().unknowns) > runaway_stretch;
+    // A stretch alone is no proof: steady states near a fold may reach it. Behind the fold it grows without end.
+    const double enough = outcome().folds.empty() ? farthest_stretch : runaway_stretch;
+    const bool runs_away = state_.system->largest_stretch(branch_->point().unknowns) > enough;
     outcome().branch.push_back(record(branch_->point(), runs_away));
     if (runs_away) {
       outcome().status = Status::unbounded;
-      outcome().message = fmt::format("stretched beyond {} at {}; the branch is not followed further",
-                                      runaway_stretch, path_.text(part_));
+      outcome().message =
+          fmt::format("stretched beyond {} at {}{}; the branch is not followed further", enough,
+                      path_.text(part_), outcome().folds.empty() ? "" : ", behind a fold");
       return true;
     }
     if (std::ssize(outcome().branch) > most_points)
