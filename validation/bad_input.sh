@@ -158,6 +158,28 @@ expect 2 'subcommand' "$capsule"
 expect 2 'jobs' "$capsule" run file.toml --jobs 0
 expect 2 'time-limit' "$capsule" run file.toml --time-limit -1
 expect 2 'time-limit' "$capsule" run file.toml --time-limit nan
+expect 2 'capsule.radius = 1e-100 is out of range' "$capsule" run file.toml --set capsule.radius=1e-100
+expect 2 'until.time = 5e-324 is out of range' "$capsule" run file.toml --set until.time=5e-324
+expect 2 'time.step = 5e-324 is out of range' \
+  "$capsule" run file.toml --set time.scheme=euler --set time.step=5e-324
+# A sweep whose runs' directories could not be made.
+{
+  printf '%s\n[sweep]\n' "$good" | sed '/0.9/d; /0.04/d'
+  for key in capsule.radius flow.capillary_number flow.viscosity_ratio capsule.aspect_ratio capsule.start_x \
+    membrane.bending_ratio pore.opening_angle_deg pore.exit_x pore.entrance_distance time.tolerance; do
+    case $key in
+    capsule.start_x) value=-4.1234567890123456 ;;
+    pore.opening_angle_deg) value=78.123456789012345 ;;
+    pore.*) value=15.123456789012345 ;;
+    time.tolerance | membrane.*) value=1.1234567890123456e-5 ;;
+    *) value=0.81234567890123456 ;;
+    esac
+    echo "\"$key\" = [$value]"
+  done
+} >long.toml
+expect 2 '^long.toml:3:1: error: the sweeps give the runs names of [0-9]* bytes; the directory of a run can have 255$' \
+  "$capsule" run long.toml
+rm long.toml
 expect 2 "^did you mean 'steady'" "$capsule" stedy file.toml
 expect 2 "^did you mean 'capsule.radius'" "$capsule" branch file.toml --along capsule.raduis --to 1
 expect 2 '^error: --to nan: .*finite number, not nan' "$capsule" branch file.toml --along capsule.radius --to nan

@@ -201,6 +201,22 @@ struct Family {
 
 void build_runs(Family &family, const Task &task) {
   constexpr std::size_t most_runs = 10000;
+// A run's directory is called as the run, and no file system takes longer names.
+bool has_usable_name(Family &family, const std::string &name) {
+  constexpr std::size_t longest = 255; // bytes
+  CaseReader &reader = family.reader;
+  const std::size_t before = reader.families.empty() ? 0 : reader.families[reader.family].size() + 1;
+  if (before + name.size() <= longest)
+    return true;
+  const auto sweep = std::ranges::find_if(reader.assignments, &Assignment::sweep);
+  reader.complain(
+      sweep == reader.assignments.end() ? TextPlace{} : sweep->place,
+      fmt::format("the sweeps give the runs names of {} bytes; the directory of a run can have {}",
+                  before + name.size(), longest),
+      "sweep fewer keys at a time, or values of fewer digits; one value for all runs needs no sweep");
+  return false;
+}
+
   CaseReader &reader = family.reader;
   std::size_t count = 1;
   for (const Assignment &assignment : reader.assignments)
@@ -228,6 +244,8 @@ void build_runs(Family &family, const Task &task) {
     }
     // Swept values that mean nothing to a run would only make it again.
     if (names.insert(builder.run.name).second)
+    if (!has_usable_name(family, builder.run.name))
+      return;
       family.runs.push_back(std::move(builder.run));
   }
 }
