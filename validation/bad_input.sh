@@ -111,6 +111,11 @@ expect 0 '^tube_radius = "5 um"' "$capsule" show physical.toml
 expect 2 "^did you mean '4 um'" "$capsule" show physical.toml --set 'physical.capsule_radius=4 ym'
 expect 2 "^--set:1:25: error: physical.capsule_radius: '4 s' is a time, not a length" \
   "$capsule" show physical.toml --set 'physical.capsule_radius=4 s'
+expect 0 '^# the Reynolds number is 0.0064 .of a liquid of 1000 kg/m3.$' "$capsule" show physical.toml
+expect 0 '^# the Reynolds number is 32 .*: not small, but the model has no inertia$' \
+  "$capsule" show physical.toml --set physical.flow_rate=0.5ul/s
+expect 0 '^capillary_number = 0.0636619' "$capsule" show physical.toml --set flow.capillary_number=0.06366
+expect 2 'or let them agree to four digits' "$capsule" show physical.toml --set flow.capillary_number=0.0636
 rm physical.toml
 
 # What a case expects, as a spreadsheet may save it.
@@ -153,11 +158,6 @@ expect 0 '^membrane = 60$' "$capsule" show file.toml --set mesh.membrane=60.0
 expect 2 'a whole number, not 60.5' "$capsule" show file.toml --set mesh.membrane=60.5
 expect 2 "--to: '0,3' is not a number; write 0.3" "$capsule" branch file.toml --along capsule.radius --to 0,3
 expect 2 "'1,5' is not a number; write 1.5" "$capsule" run file.toml --time-limit 1,5
-expect 2 'CASE' "$capsule" run
-expect 2 'subcommand' "$capsule"
-expect 2 'jobs' "$capsule" run file.toml --jobs 0
-expect 2 'time-limit' "$capsule" run file.toml --time-limit -1
-expect 2 'time-limit' "$capsule" run file.toml --time-limit nan
 expect 2 'capsule.radius = 1e-100 is out of range' "$capsule" run file.toml --set capsule.radius=1e-100
 expect 2 'until.time = 5e-324 is out of range' "$capsule" run file.toml --set until.time=5e-324
 expect 2 'time.step = 5e-324 is out of range' \
@@ -180,6 +180,11 @@ expect 2 'time.step = 5e-324 is out of range' \
 expect 2 '^long.toml:3:1: error: the sweeps give the runs names of [0-9]* bytes; the directory of a run can have 255$' \
   "$capsule" run long.toml
 rm long.toml
+expect 2 'CASE' "$capsule" run
+expect 2 'subcommand' "$capsule"
+expect 2 'jobs' "$capsule" run file.toml --jobs 0
+expect 2 'time-limit' "$capsule" run file.toml --time-limit -1
+expect 2 'time-limit' "$capsule" run file.toml --time-limit nan
 expect 2 "^did you mean 'steady'" "$capsule" stedy file.toml
 expect 2 "^did you mean 'capsule.radius'" "$capsule" branch file.toml --along capsule.raduis --to 1
 expect 2 '^error: --to nan: .*finite number, not nan' "$capsule" branch file.toml --along capsule.radius --to nan

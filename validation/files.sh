@@ -16,6 +16,8 @@ shear_modulus = "20 uN/m"
 flow_rate = "0.1 nl/s"
 TOML
 ends 0 run case.toml --out run
+grep -Eq '^  in SI units:  t [0-9.e-]+ s  x_g [0-9.e-]+ m  v_g [0-9.e-]+ m/s  pressure drop [0-9.e-]+ Pa$' log ||
+  fail 'the end in SI units is not told'
 ends 0 steady case.toml --out steady
 sed '/physical/,$d' case.toml >branch.toml
 printf '[capsule]\nradius = 0.5\n[flow]\ncapillary_number = 0.05\n' >>branch.toml

@@ -119,7 +119,8 @@ struct Builder {
     physical_ok = false;
   }
 
-  // The dimensionless values that follow from the physical ones; a value that is given too must agree.
+  // The dimensionless values that follow from the physical ones; a value that is given too must agree but for its rounding,
+  // and gives way.
   void derive() {
     for (const std::string &name : chosen.reader.meant)
       if (const Key *key = find_key(name); key != nullptr && !chosen.given(name))
@@ -144,11 +145,12 @@ struct Builder {
     const double stated = *number(key, run.physics);
     if (auto complaint = set_value(key, value.value, run.physics))
       chosen.complain({value.from}, complaint->message, complaint->hint);
-    if (chosen.given(value.key) && std::abs(stated / value.value - 1) > 1e-9)
+    constexpr double rounding = 5e-4; // to four digits
+    if (chosen.given(value.key) && std::abs(stated / value.value - 1) > rounding)
       chosen.complain({value.key},
                       fmt::format("{} = {}, but {} makes it {}", value.key, number_text(stated), value.from,
                                   number_text(value.value)),
-                      "leave one of them out");
+                      "leave one of them out, or let them agree to four digits");
   }
 
   static std::vector<std::string> physical_keys() {
@@ -199,8 +201,6 @@ struct Family {
   Usage usage = {};
 };
 
-void build_runs(Family &family, const Task &task) {
-  constexpr std::size_t most_runs = 10000;
 // A run's directory is called as the run, and no file system takes longer names.
 bool has_usable_name(Family &family, const std::string &name) {
   constexpr std::size_t longest = 255; // bytes
@@ -217,6 +217,8 @@ bool has_usable_name(Family &family, const std::string &name) {
   return false;
 }
 
+void build_runs(Family &family, const Task &task) {
+  constexpr std::size_t most_runs = 10000;
   CaseReader &reader = family.reader;
   std::size_t count = 1;
   for (const Assignment &assignment : reader.assignments)
@@ -242,10 +244,10 @@ bool has_usable_name(Family &family, const std::string &name) {
       family.usage.useful.merge(usage.useful);
       family.usage.useless.merge(usage.useless);
     }
-    // Swept values that mean nothing to a run would only make it again.
-    if (names.insert(builder.run.name).second)
     if (!has_usable_name(family, builder.run.name))
       return;
+    // Swept values that mean nothing to a run would only make it again.
+    if (names.insert(builder.run.name).second)
       family.runs.push_back(std::move(builder.run));
   }
 }

@@ -218,6 +218,10 @@ std::vector<Key> physical_keys() {
                  measured(CAPSULE_AT(physical.capsule_radius), dimension::length)}),
       in_a_pore({"physical.internal_viscosity", "instead of flow.viscosity_ratio",
                  measured(CAPSULE_AT(physical.internal_viscosity), dimension::viscosity)}),
+      of_motion(in_a_pore({"physical.density",
+                           "of the external liquid, rho: for the Reynolds number that `capsule show` states",
+                           measured(CAPSULE_AT(physical.density), dimension::density), any_number,
+                           "1000 kg/m3, of water"})),
   };
 }
 

@@ -71,6 +71,7 @@ struct UntilSpec {
 struct PhysicalSpec {
   Quantity tube_radius, viscosity, flow_rate, pressure, pore_length;
   Quantity shear_modulus, young_modulus, bending_modulus, capsule_radius, internal_viscosity;
+  Quantity density; // of water if it is not given; only for the Reynolds number
 };
 
 struct OutputSpec {

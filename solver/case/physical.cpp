@@ -33,6 +33,12 @@ double flow_rate(const Case &physics) {
                                   (p.viscosity.si * empty_pressure_drop(physics));
 }
 
+Quantity density(const Case &physics) {
+  constexpr double of_water = 1000;
+  const Quantity &given = physics.physical.density;
+  return given.si > 0 ? given : Quantity{of_water};
+}
+
 // Without the digits in which decimal fractions differ from doubles: 4e-6/5e-6 is 0.8.
 double rounded(double value) {
   return std::strtod(fmt::format("{:.15g}", value).c_str(), nullptr);
@@ -44,7 +50,7 @@ bool has_physical(const Case &physics) {
   const auto &p = physics.physical;
   return std::ranges::any_of(std::array{p.tube_radius, p.viscosity, p.flow_rate, p.pressure, p.pore_length,
                                         p.shear_modulus, p.young_modulus, p.bending_modulus, p.capsule_radius,
-                                        p.internal_viscosity},
+                                        p.internal_viscosity, p.density},
                              [](const Quantity &quantity) { return quantity.si > 0; });
 }
 
@@ -91,6 +97,22 @@ std::vector<Derived> derived_values(const Case &physics) {
   for (Derived &derived : values)
     derived.value = rounded(derived.value);
   return values;
+}
+
+double reynolds_number(const Case &physics) {
+  const auto &p = physics.physical;
+  return density(physics).si * flow_rate(physics) / (pi * p.tube_radius.si * p.viscosity.si);
+}
+
+bool is_inertia_small(const Case &physics) {
+  constexpr double small = 0.1;
+  return reynolds_number(physics) <= small;
+}
+
+std::string reynolds_text(const Case &physics) {
+  return fmt::format("the Reynolds number is {:.2g} (of a liquid of {}){}", reynolds_number(physics),
+                     quantity_text(density(physics), dimension::density),
+                     is_inertia_small(physics) ? "" : ": not small, but the model has no inertia");
 }
 
 Scales physical_scales(const Case &physics) {

@@ -30,6 +30,13 @@ std::vector<PhysicalComplaint> physical_complaints(const Case &physics);
 // within a few percent of it).
 std::vector<Derived> derived_values(const Case &physics);
 
+// rho Q/(pi R_t mu) of the external liquid, of a case in physical units. The model has no inertia, which holds where this is
+// small.
+double reynolds_number(const Case &physics);
+// With its density, and with a warning where it is above 0.1: "the Reynolds number is 0.0064 (of a liquid of 1000 kg/m3)".
+std::string reynolds_text(const Case &physics);
+bool is_inertia_small(const Case &physics);
+
 struct Scales {
   double length = 1, velocity = 1, time = 1, pressure = 1, tension = 1;
 };

@@ -88,6 +88,7 @@ const std::vector<Kind> &kinds() {
        "20 Pa",
        {"kPa", "mbar", "mmHg", "cmH2O", "psi", "N/m2", "dyn/cm2"}},
       {dimension::tension, "a tension", "N/m", "0.02 mN/m", {"uN/m", "pN/um", "dyn/cm", "N/m", "mJ/m2"}},
+      {dimension::density, "a density", "kg/m3", "1 g/cm3", {"kg/m3", "g/ml", "kg/l"}},
       {dimension::energy, "an energy", "J", "0.5 aJ", {"fJ", "J", "kT", "erg", "pN.um", "N.m"}},
       {dimension::velocity, "a velocity", "m/s", "1 mm/s", {"um/s", "m/s"}},
       {dimension::time, "a time", "s", "1 s", {"ms", "min", "h"}}};

@@ -4,6 +4,8 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/identity.hpp"
+#include "case/physical.hpp"
+#include "observe/quantities.hpp"
 #include "output/checkpoint.hpp"
 #include "output/results.hpp"
 #include "program/progress.hpp"
@@ -67,25 +69,49 @@ bool is_there(const RunInput &run, const RunOptions &options) {
 // How a run ended.
 enum RunEnd { interrupted, computed, found };
 
+// What is told of a run's end: labels and quantities.
+std::vector<std::pair<std::string, std::string>> told_quantities(const Summary &summary) {
+  std::vector<std::pair<std::string, std::string>> told;
+  if (!summary.along.empty())
+    told.emplace_back(summary.along, "time"); // on a branch the key takes the place of the time
+  else if (summary.status != "steady")
+    told = {{"t", "time"}, {"x_g", "x_g"}};
+  told.insert(told.end(), {{"v_g", "v_g"}, {"pressure drop", "pressure_drop"}});
+  return told;
+}
+
+// The same in SI units, on a line of its own, where the case has them.
+std::string report_in_si(const RunResult &result) {
+  const Summary &summary = *result.summary;
+  if (!has_physical(result.input.physics) || !summary.along.empty())
+    return "";
+  const Scales scales = physical_scales(result.input.physics);
+  std::string text = "\n  in SI units:";
+  for (const auto &[label, name] : told_quantities(summary)) {
+    const auto value = summary.quantities.find(name);
+    const auto quantity = std::ranges::find(reported_quantities(), name, &ReportedQuantity::name);
+    if (value != summary.quantities.end() && quantity != reported_quantities().end() && quantity->unit)
+      text += fmt::format("  {} {:.4g} {}", label, value->second * scales.*quantity->unit->scale,
+                          unit_text(quantity->unit->dimension));
+  }
+  return text;
+}
+
 std::string report(const RunResult &result, const std::string &name, RunEnd end) {
   const Summary &summary = *result.summary;
   std::string text = fmt::format("{}: {}", name, summary.status);
   if (!summary.failure.empty())
     text += fmt::format(" ({})", summary.failure);
-  const auto add = [&](const std::string &label, const char *quantity, int digits = 6) {
+  const auto add = [&](const std::string &label, const std::string &quantity, int digits = 6) {
     if (const auto value = summary.quantities.find(quantity); value != summary.quantities.end())
       text += fmt::format("  {} {:.{}g}", label, value->second, digits);
   };
-  if (!summary.along.empty())
-    add(summary.along, "time"); // on a branch the key takes the place of the time
-  else if (summary.status != "steady") {
-    add("t", "time");
-    add("x_g", "x_g");
-  }
-  add("v_g", "v_g");
-  add("pressure drop", "pressure_drop");
+  for (const auto &[label, quantity] : told_quantities(summary))
+    add(label, quantity);
   add("CPU seconds", "cpu_seconds", 3);
-  return text + fmt::format("{}  -> {}", end == found ? " (computed before)" : "", result.directory.string());
+  return text +
+         fmt::format("{}  -> {}", end == found ? " (computed before)" : "", result.directory.string()) +
+         report_in_si(result);
 }
 
 // The runs of one case while they are computed.

@@ -5,6 +5,7 @@
 #include "case/identity.hpp"
 #include "case/keys.hpp"
 #include "case/new_case.hpp"
+#include "case/physical.hpp"
 #include "case/project.hpp"
 #include "compare/comparison.hpp"
 #include "compare/ledger.hpp"
@@ -88,6 +89,17 @@ RunOptions run_options(const Arguments &arguments, const CaseInput &input, const
 bool is_interrupted(const RunResult &result) {
   return !result.summary;
 }
+// The run whose liquid has the largest Reynolds number, if that is not small.
+void warn_of_inertia(const CaseInput &input) {
+  const RunInput *fastest = nullptr;
+  for (const RunInput &run : input.runs)
+    if (has_physical(run.physics) && !is_inertia_small(run.physics) &&
+        (fastest == nullptr || reynolds_number(run.physics) > reynolds_number(fastest->physics)))
+      fastest = &run;
+  if (fastest != nullptr)
+    fmt::print(stderr, "warning: {}: {}\n", name_of(*fastest, input), reynolds_text(fastest->physics));
+}
+
 bool has_failed(const RunResult &result) {
   return result.summary && result.summary->status == "failed";
 }
@@ -95,6 +107,7 @@ bool has_failed(const RunResult &result) {
 std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arguments,
                                     const Computation &computation = {}) {
   listen_to_signals();
+  warn_of_inertia(input);
   const RunOptions options = run_options(arguments, input, computation.task);
   std::vector<RunResult> results = compute(input, options, computation.method);
   for (const RunResult &result : results)
@@ -300,11 +313,12 @@ ExitCode show_case(const Arguments &arguments) {
     const double left = (1 - state.fraction) * estimated_seconds(run_input.physics);
     finished += state.finished ? 1 : 0;
     seconds_left += left;
-    fmt::print("# {}: {}\n{}\n", name_of(run_input, input),
-               state.finished
-                   ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
-                   : fmt::format("{}, about {} to go", unfinished_text(state), duration_text(left)),
-               resolved_toml(run_input.physics));
+    const Case &physics = run_input.physics;
+    fmt::print(
+        "# {}: {}\n{}{}\n", name_of(run_input, input),
+        state.finished ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
+                       : fmt::format("{}, about {} to go", unfinished_text(state), duration_text(left)),
+        has_physical(physics) ? fmt::format("# {}\n", reynolds_text(physics)) : "", resolved_toml(physics));
   }
   fmt::print("# {}, {} finished, about {} of one core to go\n", counted(input.runs.size(), "run"), finished,
              duration_text(seconds_left));

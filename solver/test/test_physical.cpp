@@ -116,6 +116,32 @@ BOOST_AUTO_TEST_CASE(a_spelling_is_kept_and_makes_no_difference) {
   BOOST_TEST(run_identity(only_run(replaced(laboratory, "5 um", "6 um"))) != run_identity(physics));
 }
 
+// A group that stands beside what it follows from may be rounded to four digits; what follows is taken.
+BOOST_AUTO_TEST_CASE(a_rounded_group_agrees) {
+  const double exact = only_run(laboratory).flow.capillary_number; // 0.0636619...
+  BOOST_TEST(only_run(laboratory, {"flow.capillary_number=0.06366"}).flow.capillary_number == exact);
+  BOOST_TEST(only_run(laboratory, {"capsule.radius=0.8003"}).capsule.radius == 0.8);
+  BOOST_TEST(
+      contains(complaint(laboratory, {"flow.capillary_number=0.0636"}), "let them agree to four digits"));
+}
+
+// rho Q/(pi R_t mu): 1000 1e-13/(pi 5e-6 1e-3) with water, ten times the flow rate and three of the density beyond 0.1.
+BOOST_AUTO_TEST_CASE(the_reynolds_number_of_the_outer_liquid) {
+  const double of_water = 1000 * 1e-13 / (std::numbers::pi * 5e-6 * 1e-3);
+  BOOST_TEST(reynolds_number(only_run(laboratory)) == of_water, tolerance);
+  BOOST_TEST(reynolds_text(only_run(laboratory)) ==
+             "the Reynolds number is 0.0064 (of a liquid of 1000 kg/m3)");
+  BOOST_TEST(is_inertia_small(only_run(laboratory)));
+  const Case heavy = only_run(laboratory, {"physical.flow_rate=1 nl/s", "physical.density=3 g/ml"});
+  BOOST_TEST(reynolds_number(heavy) == 30 * of_water, tolerance);
+  BOOST_TEST(!is_inertia_small(heavy));
+  BOOST_TEST(contains(reynolds_text(heavy), "0.19 (of a liquid of 3 g/ml): not small"));
+  BOOST_TEST(
+      contains(complaint("capsule.radius = 0.8\nmembrane.law = \"skalak\"\nflow.capillary_number = 0.1\n"
+                         "physical.density = \"1 g/cm3\"\n"),
+               "missing key 'physical.tube_radius'"));
+}
+
 BOOST_AUTO_TEST_CASE(contradictions_are_located) {
   const std::string twice = complaint(laboratory, {"flow.capillary_number=0.1"});
   BOOST_TEST(contains(twice, "--set:1:"));

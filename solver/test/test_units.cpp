@@ -109,6 +109,8 @@ BOOST_AUTO_TEST_CASE(times_and_velocities) {
   BOOST_TEST(si("2 h", dimension::time) == 7200);
   BOOST_TEST(si("2 ms", dimension::time) == 2e-3);
   BOOST_TEST(si("6 mm/min", dimension::velocity) == 1e-4);
+  BOOST_TEST(si("1 g/cm3", dimension::density) == 1000);
+  BOOST_TEST(si("1.2 kg/l", dimension::density) == 1200);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_quantity_is_refused) {
