@@ -22,6 +22,11 @@ ends 0 steady case.toml --out steady
 sed '/physical/,$d' case.toml >branch.toml
 printf '[capsule]\nradius = 0.5\n[flow]\ncapillary_number = 0.05\n' >>branch.toml
 ends 0 branch branch.toml --along flow.capillary_number --to 0.051 --out branch
+# The start is written once, however its place is rounded, if a profile is asked for there.
+for start in -1.3 -1.4 -1.5 -1.6 -1.7; do
+  ends 0 run case.toml --set until.time=1e-3 --set capsule.start_x=$start --set "output.profiles_at_x_g=[$start]" --out start
+  [ "$(cut -d, -f1,2 start/profiles.csv | uniq | wc -l)" -eq 3 ] || fail "the profile at the start, $start, stands there twice"
+done
 missing=0
 for word in $(ls run branch | sed '/:$/d; s/_000[1-9]/_0000/' | sort -u) \
   $(cat */series.csv */profiles.csv */branch.csv | grep '^[a-z]' | tr ',' '\n' | sort -u) \

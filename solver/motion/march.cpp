@@ -27,9 +27,9 @@ public:
         roughness_limit_(role == Role::main ? roughness_limit : std::numeric_limits<double>::infinity()),
         dynamics_(make_dynamics(input)), gauge_(dynamics_.scene->pore, dynamics_.scene->membrane),
         record_(from) {
-    const Vector &start = started() ? record_.position : dynamics_.scene->start;
-    x_g_stations_ =
-        stations(gauge_.centre(start), row_spacing, input.until.x_g, input.output.profiles_at_x_g);
+    // Not the centre of the start's shape, whose rounding may lie on either side of a place that is asked for.
+    const double centre = started() ? gauge_.centre(record_.position) : input.capsule.start_x;
+    x_g_stations_ = stations(centre, row_spacing, input.until.x_g, input.output.profiles_at_x_g);
     const double end = input.until.time.value_or(std::numeric_limits<double>::infinity());
     time_stations_ = stations(record_.time, input.until.x_g ? end : end / rows_in_time, input.until.time,
                               input.output.profiles_at_time);

@@ -24,6 +24,14 @@ BOOST_AUTO_TEST_CASE(marches_that_end_before_they_are_steady_are_remarked) {
   results[1].summary->status = "failed";
   results[2].summary->quantities["x_g"] = -1; // not in the pore yet
   BOOST_TEST(unsteady_remark({results[1], results[2]}) == "");
+  // Whatever the rounding of its end; its rear is in the mouth.
+  for (const double x_g : {-1e-15, 0.0, 1e-15}) {
+    results[2].summary->quantities["x_g"] = x_g;
+    results[2].summary->quantities["length"] = 1.6;
+    BOOST_TEST(unsteady_remark({results[2]}) == "");
+  }
+  results[2].summary->quantities["x_g"] = 0.81;
+  BOOST_TEST(unsteady_remark({results[2]}) != "");
   results[2].input.physics.pore.shape = PoreShape::none;
   results[2].input.physics.until = {.x_g = {}, .time = 3};
   BOOST_TEST(unsteady_remark({results[2]}).find("until.time") != std::string::npos);
