@@ -46,6 +46,9 @@ grep -q "unbounded  $key 0\.[0-9]*  v_g" log || fail 'the line of a branch does 
 sed -n '/"folds"/,/\]/p' folded/summary.json >folds
 [ "$(grep -c "\"$key\"" folds)" -eq 1 ] || fail 'not one fold'
 fold=$(of folded $key)
+sed -n 's/.*timestep="\([^"]*\)".*/\1/p' folded/membrane.pvd >times
+sort -nu times | cmp - times && grep -q "Name=\"$key\"" folded/membrane_0001.vtp ||
+  fail 'a reader that sorts by time shows another branch'
 awk -F, -v fold="$fold" 'NR > 1 && $1 >= fold { exit 1 }' folded/branch.csv || fail "a point beyond the fold at $fold"
 near "$(point folded '$' growth_rate)" 10 9.999 'beyond the fold small motions grow'
 ends 3 steady case.toml --out beyond --set $key="$(awk -v f="$fold" 'BEGIN { print 1.002 * f }')"

@@ -26,7 +26,7 @@ std::string surface_name(std::size_t index) {
 }
 
 // A strip of triangles between each two points.
-std::string surface_vtp(const Profile &profile) {
+std::string surface_vtp(const Profile &profile, const std::string &along) {
   constexpr int turns = 32;
   const std::vector<Eigen::Index> chosen = pictured_points(profile);
   const auto points = std::ssize(chosen);
@@ -54,21 +54,27 @@ std::string surface_vtp(const Profile &profile) {
         fields += fmt::format("{:.5g}\n", (profile.*quantity.values)[i]);
     fields += "</DataArray>\n";
   }
-  return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
+  const std::string of_all = along.empty()
+                                 ? ""
+                                 : fmt::format("<FieldData>\n<DataArray type=\"Float64\" Name=\"{}\" "
+                                               "NumberOfTuples=\"1\" format=\"ascii\">\n{}\n"
+                                               "</DataArray>\n</FieldData>\n",
+                                               along, number_text(profile.time));
+  return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n{}"
                      "<Piece NumberOfPoints=\"{}\" NumberOfStrips=\"{}\">\n<PointData>\n{}</PointData>\n"
                      "<Points>\n<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">\n{}"
                      "</DataArray>\n</Points>\n<Strips>\n"
                      "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n{}</DataArray>\n"
                      "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n{}</DataArray>\n"
                      "</Strips>\n</Piece>\n</PolyData>\n</VTKFile>\n",
-                     points * turns, points - 1, fields, positions, connectivity, offsets);
+                     of_all, points * turns, points - 1, fields, positions, connectivity, offsets);
 }
 
-std::string surfaces_pvd(const std::vector<Profile> &profiles) {
+std::string surfaces_pvd(const std::vector<Profile> &profiles, const std::string &along) {
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
   for (std::size_t i = 0; i < profiles.size(); ++i)
-    text += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", number_text(profiles[i].time),
-                        surface_name(i));
+    text += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n",
+                        along.empty() ? number_text(profiles[i].time) : std::to_string(i), surface_name(i));
   return text + "</Collection>\n</VTKFile>\n";
 }
 

@@ -9,8 +9,10 @@ namespace capsule {
 
 // The name of a profile's file: "membrane_0003.vtp".
 std::string surface_name(std::size_t index);
-// One profile turned about the axis, at most 129 of its points around 32 meridians.
-std::string surface_vtp(const Profile &profile);
-std::string surfaces_pvd(const std::vector<Profile> &profiles);
+// One profile turned about the axis, at most 129 of its points around 32 meridians. Of a branch, `along` a key, the key's
+// value is a field of the surface.
+std::string surface_vtp(const Profile &profile, const std::string &along = "");
+// Of a branch their numbers stand for times: beyond a fold the key's value goes back, and readers sort by time.
+std::string surfaces_pvd(const std::vector<Profile> &profiles, const std::string &along = "");
 
 } // namespace capsule

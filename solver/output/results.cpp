@@ -61,8 +61,8 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
   if (!outcome.along.empty())
     write_atomically(directory / "branch.csv", branch_csv(outcome));
   for (std::size_t i = 0; i < profiles.size(); ++i)
-    write_atomically(directory / surface_name(i), surface_vtp(profiles[i]));
-  write_atomically(directory / "membrane.pvd", surfaces_pvd(profiles));
+    write_atomically(directory / surface_name(i), surface_vtp(profiles[i], outcome.along));
+  write_atomically(directory / "membrane.pvd", surfaces_pvd(profiles, outcome.along));
   write_atomically(directory / "resolved.toml", resolved_toml(physics));
   write_atomically(directory / "run.json", provenance_text(physics, effort, task));
   write_atomically(directory / "summary.json", summary_text(physics, outcome, effort));

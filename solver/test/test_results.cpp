@@ -103,6 +103,22 @@ BOOST_AUTO_TEST_CASE(results_of_a_run) {
   BOOST_TEST(surface.find("NumberOfPoints=\"96\" NumberOfStrips=\"2\"") != std::string::npos);
 }
 
+// What a reader sorts by time goes along the branch, also beyond a fold.
+BOOST_AUTO_TEST_CASE(surfaces_of_a_branch_are_numbered) {
+  const TemporaryDirectory directory;
+  Outcome outcome = outcome_with(random_checkpoint());
+  outcome.along = "flow.capillary_number";
+  outcome.last.profiles[0].time = 0.2;
+  outcome.last.profiles[1].time = 0.1;
+  write_results(directory.path, pore_case(), outcome, {});
+  const std::string collection = content_of(directory.path / "membrane.pvd");
+  BOOST_TEST(collection.find("timestep=\"0\" file=\"membrane_0000.vtp\"") != std::string::npos);
+  BOOST_TEST(collection.find("timestep=\"1\" file=\"membrane_0001.vtp\"") != std::string::npos);
+  BOOST_TEST(content_of(directory.path / "membrane_0001.vtp")
+                 .find("Name=\"flow.capillary_number\" NumberOfTuples=\"1\" format=\"ascii\">\n0.1\n") !=
+             std::string::npos);
+}
+
 // By hand: R_t, Q/(pi R_t^2), mu Q/(pi R_t^3), and of the time R_t over the velocity.
 BOOST_AUTO_TEST_CASE(results_in_physical_units) {
   const TemporaryDirectory directory;
