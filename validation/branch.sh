@@ -79,6 +79,11 @@ for text in 'time,x_g' "$(head -n 1 march/profiles.csv)" "$(head -n 1 march/prof
   ends 2 steady case.toml --out from --from bad
   grep -q '^bad/profiles.csv:[1-9]:1: error: ' log || fail "nothing is said of '$text'"
 done
+sed '3s/[^,]*$/nan/' march/profiles.csv >bad/profiles.csv
+ends 2 steady case.toml --out from --from bad
+grep -q "^bad/profiles.csv:3:1: error: 'nan' in the column 'velocity_r' is not finite" log || fail 'a nan is not named'
+ends 3 steady case.toml --out from --from march --set capsule.radius=0.95
+grep -q 'of another capsule: radius 0.8 there, 0.95 here' log || fail 'another radius is not named'
 
 # A case's march and its steady states have places of their own; what takes another's place says so.
 ends 0 run case.toml --set until.x_g=-3.5

@@ -3,6 +3,7 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <string_view>
@@ -101,7 +102,7 @@ std::vector<CsvRow> read_csv(const fs::path &file) {
   return rows;
 }
 
-Columns read_columns(const fs::path &file) {
+Columns read_columns(const fs::path &file, Numbers allowed) {
   const std::vector<CsvRow> rows = read_csv(file);
   if (rows.empty())
     return {};
@@ -118,6 +119,8 @@ Columns read_columns(const fs::path &file) {
       const auto number = to_number(trimmed(fields[k]));
       if (!number)
         refuse(rows[i], not_a_number(trimmed(fields[k]), fmt::format(" in the column '{}'", names[k])));
+      if (allowed == Numbers::finite && !std::isfinite(*number))
+        refuse(rows[i], fmt::format("'{}' in the column '{}' is not finite", trimmed(fields[k]), names[k]));
       values[k].push_back(*number);
     }
   }

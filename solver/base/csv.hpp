@@ -20,10 +20,11 @@ struct CsvRow {
 // quote is not closed.
 std::vector<CsvRow> read_csv(const std::filesystem::path &file);
 
-// The columns of a table of numbers, by name. Throws as read_csv, and InputError with all rows that are not one number
-// for each name.
+// The columns of a table of numbers, by name. Throws as read_csv, and InputError, with its row and column, for what is no
+// number, or none that is allowed.
+enum class Numbers { any, finite };
 using Columns = std::map<std::string, std::vector<double>>;
-Columns read_columns(const std::filesystem::path &file);
+Columns read_columns(const std::filesystem::path &file, Numbers allowed = Numbers::any);
 
 // The fields of one line.
 std::vector<std::string> split_csv(const std::string &line);

@@ -86,7 +86,7 @@ std::string profiles_csv(const std::vector<Profile> &profiles) {
 
 Profile read_last_profile(const std::filesystem::path &directory) {
   const std::filesystem::path file = directory / "profiles.csv";
-  const Columns columns = read_columns(file);
+  const Columns columns = read_columns(file, Numbers::finite);
   const auto values_of = [&](const char *name) -> const std::vector<double> & {
     const auto found = columns.find(name);
     if (found == columns.end())
@@ -107,6 +107,10 @@ Profile read_last_profile(const std::filesystem::path &directory) {
     profile.*quantity.values =
         Eigen::Map<const Vector>(values.data() + first, static_cast<Eigen::Index>(values.size() - first));
   }
+  for (Eigen::Index i = 1; i < profile.S.size(); ++i)
+    if (profile.S[i] <= profile.S[i - 1])
+      throw InputError(csv_error(file, read_csv(file)[first + static_cast<std::size_t>(i) + 1].line,
+                                 "the column 'S' does not grow from the row before"));
   return profile;
 }
 

@@ -21,7 +21,8 @@ std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow
 std::string branch_csv(const Outcome &outcome);
 std::string profiles_csv(const std::vector<Profile> &profiles);
 
-// The last profile of a run's profiles.csv. Throws as read_columns (csv.hpp), and InputError if there is none.
+// The last profile of a run's profiles.csv. Throws as read_columns (csv.hpp), and InputError if there is none, or
+// where its numbers are not finite or its S does not grow.
 Profile read_last_profile(const std::filesystem::path &directory);
 
 } // namespace capsule

@@ -5,6 +5,7 @@
 #include "steady/relaxation.hpp"
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <utility>
 
@@ -23,18 +24,49 @@ Vector interpolated(const Vector &S, const Vector &f, const Vector &at) {
   return result;
 }
 
-// A profile's shape on the nodes, point by point of the undeformed membrane.
-Vector unknowns_of(const Profile &profile, const Membrane &membrane) {
+// Arc length of the undeformed meridian at ascending angles from a pole on, by chords.
+Vector undeformed_arc(const Membrane &membrane, const Vector &zeta) {
   const Eigen::Index n = membrane.basis.size();
-  if (profile.S.size() < 4)
-    throw InputError("error: a profile of at least four points is needed to begin with\n");
-  // Undeformed arc length of the nodes, by chords much shorter than the distance of the nodes.
-  const Vector zeta = Vector::LinSpaced(64 * n + 1, 0, std::numbers::pi);
   const Vector x = membrane.basis.even(zeta, 0) * membrane.reference.head(n);
   const Vector r = membrane.basis.odd(zeta, 0) * membrane.reference.tail(n);
   Vector arc = Vector::Zero(zeta.size());
   for (Eigen::Index k = 1; k < zeta.size(); ++k)
     arc[k] = arc[k - 1] + std::hypot(x[k] - x[k - 1], r[k] - r[k - 1]);
+  return arc;
+}
+
+// Angles much nearer to each other than the nodes.
+Vector fine_angles(const Membrane &membrane) {
+  return Vector::LinSpaced(64 * membrane.basis.size() + 1, 0, std::numbers::pi);
+}
+
+// Where no way has led from a profile to rest: whether that is because it is of another capsule. Its volume and its
+// undeformed meridian tell, whatever its shape.
+void require_same_capsule(const Profile &profile, const Membrane &membrane, double radius) {
+  constexpr double same = 0.01;
+  const Eigen::Index rest = profile.S.size() - 1;
+  const Eigen::ArrayXd slices =
+      (profile.x.tail(rest) - profile.x.head(rest)).array() *
+      (profile.r.tail(rest).array().square() + profile.r.head(rest).array().square()) / 2;
+  const double of_profile = std::cbrt(0.75 * slices.sum()); // from pi r^2 dx = 4/3 pi R^3
+  const double meridian = undeformed_arc(membrane, fine_angles(membrane)).tail(1).value();
+  const double meridian_of_profile = profile.S[rest] - profile.S[0];
+  std::string differ;
+  if (!(std::abs(of_profile / radius - 1) < same))
+    differ = fmt::format("radius {:.3g} there, {:.3g} here", of_profile, radius);
+  else if (!(std::abs(meridian_of_profile / meridian - 1) < same))
+    differ = fmt::format("a meridian of {:.3g} there, {:.3g} here", meridian_of_profile, meridian);
+  if (!differ.empty())
+    throw NumericsFailure("unresolved", "the profile to begin with is of another capsule: " + differ,
+                          "begin with a profile of this one, or leave --from away");
+}
+
+// A profile's shape on the nodes, point by point of the undeformed membrane.
+Vector unknowns_of(const Profile &profile, const Membrane &membrane) {
+  const Eigen::Index n = membrane.basis.size();
+  if (profile.S.size() < 4)
+    throw InputError("error: a profile of at least four points is needed to begin with\n");
+  const Vector zeta = fine_angles(membrane), arc = undeformed_arc(membrane, zeta);
   const Vector S = interpolated(zeta, arc, membrane.basis.nodes) *
                    ((profile.S[profile.S.size() - 1] - profile.S[0]) / arc[zeta.size() - 1]);
   Vector unknowns = Vector::Zero(2 * n + 2);
@@ -57,7 +89,12 @@ SteadyState from_profile(const Case &input, const Profile &profile, const Contro
   try {
     state.unknowns = solve_steady(*state.system, state.unknowns);
   } catch (const NumericsFailure &) {
-    state.unknowns = solve_steady(*state.system, relaxed(*state.system, state.unknowns, control));
+    try {
+      state.unknowns = solve_steady(*state.system, relaxed(*state.system, state.unknowns, control));
+    } catch (const NumericsFailure &) {
+      require_same_capsule(profile, state.system->membrane(), input.capsule.radius);
+      throw;
+    }
   }
   return state;
 }

@@ -125,6 +125,10 @@ BOOST_AUTO_TEST_CASE(columns_of_numbers) {
   BOOST_TEST(refusal_of_numbers("a,b\n1,1.0D-02\n") ==
              "t.csv:2:1: error: '1.0D-02' in the column 'b' is not a number; write 1.0e-02\n");
   BOOST_TEST(refusal_of_numbers("a,b\n1,\n") == "t.csv:2:1: error: '' in the column 'b' is not a number\n");
+  const auto file = directory.write("inf.csv", "a,b\n1,2\n3, -inf\n");
+  BOOST_TEST(read_columns(file).at("b")[1] == -std::numeric_limits<double>::infinity());
+  BOOST_TEST(said_of("a,b\n\n3, -inf\n", [](const auto &table) { read_columns(table, Numbers::finite); }) ==
+             "t.csv:3:1: error: '-inf' in the column 'b' is not finite\n");
   BOOST_TEST(refusal_of_numbers("a,a\n1,2\n") == "t.csv:1:1: error: there are two columns 'a'\n");
   BOOST_TEST(refusal_of_numbers("a\n\x1b[2J\n") ==
              "t.csv:2:1: error: '\\u001b[2J' in the column 'a' is not a number\n");
