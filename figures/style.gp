@@ -28,7 +28,7 @@ series(run) = results(run)."/series.csv"
 profiles(run) = results(run)."/profiles.csv"
 series_physical(run) = results(run)."/series_physical.csv" # of a case in physical units
 # One number, NaN where there is none: of a summary.json, of this case's summaries and their error estimates, of
-# tables/published.csv, where the row speaks of this case, or of one whose runs it shows.
+# tables/published.csv, where the row speaks of this case, another file of its directory, or a case whose runs it shows.
 # gnuplot takes "5e-09" for 5 with something behind it, "5.e-09" for what it is.
 with_point(text) = strstrt(text, "e") && !strstrt(text, ".") ? text[:strstrt(text, "e") - 1].".".text[strstrt(text, "e"):] : text
 number(text) = text eq "" ? NaN : with_point(text) + 0
@@ -45,8 +45,15 @@ result_word(run, name) = entry_word(results(run), "  \"".name."\"")
 run_with(key, value) = first_of(key, value, 1)
 first_of(key, value, i) = i > count ? run(1) : abs(parameter(run(i), key) - value) < 1e-9 ? run(i) : first_of(key, value, i + 1)
 published(id) = published_of(case." ".runs, id)
-published_of(cases, id) = number(system("cases=".quoted(cases)." case=".quoted(word(cases, 1))." awk -F, '$1 == \"".id."\" && \
-  (index(ENVIRON[\"cases\"], $3) || index($3, ENVIRON[\"case\"]) == 1) {printf \"%.16e\", $6}' tables/published.csv"))
+published_of(cases, id) = number(system("cases=".quoted(cases)." case=".quoted(word(cases, 1))." awk -F, ' \
+  function is_shown(name,  i, n, words, line) { \
+    n = split(ENVIRON[\"cases\"], words, \"[ ,]\"); \
+    for (i = 1; i <= n; ++i) if (words[i] == name) return 1; \
+    i = length(ENVIRON[\"case\"]) + 1; \
+    return substr(name, 1, i) == ENVIRON[\"case\"] \"-\" && \
+      (getline line < (\"cases/\" ENVIRON[\"case\"] \"/\" substr(name, i + 1) \".toml\")) >= 0 \
+  } \
+  $1 == \"".id."\" && is_shown($3) {printf \"%.16e\", $6}' tables/published.csv"))
 # In words: a relative distance, "" where there is no published value; a list that grows by an item.
 distance(ours, published) = published == published ? sprintf("%+.2f %%", 100 * (ours / published - 1)) : ""
 listed(list, item) = list.(list eq "" || item eq "" ? "" : ", ").item

@@ -91,4 +91,14 @@ cp -r cases/small cases/next
 rm -r 'cases/a"b'
 cmake --build build --target help >log 2>&1 || fail 'the next build'
 grep -q 'figure-next: ' log || fail 'a new case is not seen'
+# A figure's published values are those of its case, of another file in the case's directory, and of cases whose runs it
+# shows; that one name begins as another does means nothing.
+mkdir -p drawn/cases/small drawn/tables drawn/results/small
+touch drawn/cases/small/file.toml
+printf '%s\n' 'id,where,case,run,quantity,published' a,T,small,,v_g,1 b,T,small-file,,v_g,2 c,T,small-two,,v_g,3 \
+  d,T,smal,,v_g,4 e,T,other,,v_g,5 >drawn/tables/published.csv
+echo 'other,radius=0.9' >drawn/results/small/runs.txt
+echo 'print published("a"), published("b"), published("c"), published("d"), published("e")' >drawn/cases/small/figure.gp
+found=$(cd drawn && gnuplot -c ../figures/style.gp cases/small figures 2>&1 | head -n 1)
+[ "$found" = '1.0 2.0 NaN NaN 5.0' ] || fail "published values: $found"
 echo 'a case and a directory may be called anything, or are refused by name'
