@@ -20,7 +20,7 @@ help:
 	@echo 'make test            run all tests'
 	@echo 'make lint            clang-format and clang-tidy over all sources, where they are installed'
 	@echo 'make sanitize        unit tests with the address and undefined-behaviour sanitizers'
-	@echo 'make fuzz [SECONDS=600]   random case files and --set arguments, with the sanitizers (needs clang)'
+	@echo 'make fuzz [SECONDS=600]   random case files, --set arguments, tables and checkpoints, with the sanitizers (needs clang)'
 	@echo 'make coverage        lines of solver/ that unit tests and quick tests of the program run'
 	@echo 'make bench           time kernels and steps; chart speed against accuracy (on a quiet machine)'
 	@echo 'make paper-numerics  compute Tables 1 and 3 again with the numerics of the paper: an hour or more'
@@ -94,7 +94,7 @@ lint: build
 sanitize: setup
 	@cmake/configure.sh sanitize build-sanitize && cmake --build --preset sanitize && ctest --preset sanitize
 
-# Half of the time for each; what was found on the way stays in build-fuzz/ for the next time.
+# A share of the time for each; what was found on the way stays in build-fuzz/ for the next time.
 SECONDS ?= 600
 fuzz: setup
 	@cmake/configure.sh fuzz build-fuzz && cmake --build --preset fuzz

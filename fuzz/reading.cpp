@@ -15,11 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void finding(const std::string &what) {
-  fmt::print(stderr, "finding: {}\n", what);
-  std::abort();
-}
-
 // Of each error one line says where it is, and is printable.
 void check_message(const std::string &message) {
   static const std::regex located("(^|\n)[^\n]*:[1-9][0-9]*:[1-9][0-9]*: error: [^\n]+");
@@ -44,6 +39,19 @@ void check_round_trip(const Case &physics) {
 
 } // namespace
 
+void finding(const std::string &what) {
+  fmt::print(stderr, "finding: {}\n", what);
+  std::abort();
+}
+
+void check_refusal(const std::function<void()> &read) {
+  try {
+    read();
+  } catch (const InputError &error) {
+    check_message(error.what());
+  }
+}
+
 void check_reading(const fs::path &file, const std::vector<std::string> &overrides) {
   try {
     const CaseInput input = read_case(file, overrides);
@@ -60,6 +68,12 @@ fs::path scratch_file() {
   const fs::path memory = "/dev/shm";
   const fs::path parent = access(memory.c_str(), W_OK) == 0 ? memory : fs::temp_directory_path();
   return parent / fmt::format("capsule-fuzz-{}.toml", getpid());
+}
+
+fs::path scratch_directory() {
+  static const fs::path directory = scratch_file().replace_extension("");
+  fs::create_directories(directory);
+  return directory;
 }
 
 void write_scratch(const fs::path &file, std::string_view content) {

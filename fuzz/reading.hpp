@@ -1,7 +1,8 @@
 #pragma once
-// What must hold of any input to the reader of case files, whatever bytes it is made of. Aborts where it doesn't, so
+// What must hold of any input to the readers of files, whatever bytes it is made of. Aborts where it doesn't, so
 // that the fuzzer keeps the input.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,14 @@ namespace capsule {
 // input.
 void check_reading(const std::filesystem::path &file, const std::vector<std::string> &overrides);
 
-// The file of this process for the bytes that are tried, in memory where there is such a place.
+// Any reader, which either throws nothing or InputError with a located message that can be printed.
+void check_refusal(const std::function<void()> &read);
+// Keeps the input, and says what is wrong with what has been made of it.
+[[noreturn]] void finding(const std::string &what);
+
+// Of this process, for the bytes that are tried, in memory where there is such a place: a file, and a directory.
 std::filesystem::path scratch_file();
+std::filesystem::path scratch_directory();
 void write_scratch(const std::filesystem::path &file, std::string_view content);
 
 } // namespace capsule
