@@ -15,8 +15,7 @@ struct BranchPoint {
 
 class Branch {
 public:
-  // Lengths along the branch; and of the last correction of a point, in displacement: the next one would be about its
-  // square.
+  // Lengths along the branch; and how far, in displacement, the next correction of a point would move it.
   struct Steps {
     double first, largest, tolerance;
   };

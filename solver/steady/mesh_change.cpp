@@ -30,7 +30,7 @@ SteadyState solved_on_mesh(const Case &input, int nodes, const SteadyState &stat
 
 // Takes a state along a branch to the branch's end, on the same mesh.
 void follow(const KeyPath &path, SteadyState &state) {
-  constexpr Branch::Steps steps{.first = 0.1, .largest = 0.5, .tolerance = 1e-6};
+  constexpr Branch::Steps steps{.first = 0.1, .largest = 0.5, .tolerance = 1e-8};
   constexpr int most_steps = 60;
   Branch branch(*state.system, path, {state.unknowns, 0}, Branch::upwards(*state.system), steps);
   for (int step = 0; branch.point().parameter < 1; ++step) {
