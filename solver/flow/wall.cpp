@@ -33,6 +33,12 @@ Vector wall_edges(const Pore &pore, const FlowResolution &resolution) {
   return edges;
 }
 
+} // namespace
+
+Panels wall_panels(const Pore &pore, const FlowResolution &resolution) {
+  return make_panels(wall_edges(pore, resolution), resolution.wall_panel_points);
+}
+
 Curve wall_curve(const Pore &pore, const Panels &along) {
   const Eigen::Index n = along.points.size();
   Curve wall;
@@ -51,12 +57,10 @@ Curve wall_curve(const Pore &pore, const Panels &along) {
   return wall;
 }
 
-} // namespace
-
 Wall::Wall(const Pore &pore, const FlowResolution &resolution)
     : near_(resolution.wall_panel_points, resolution.near_tolerance),
       outlet_(plane_outlet(pore.exit_x, resolution.near_tolerance)) {
-  const Panels along = make_panels(wall_edges(pore, resolution), resolution.wall_panel_points);
+  const Panels along = wall_panels(pore, resolution);
   arc_ = along.points;
   curve_ = wall_curve(pore, along);
   fixed_near_ = FixedNearRule(curve_, resolution.near_tolerance);

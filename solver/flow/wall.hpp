@@ -11,6 +11,10 @@
 
 namespace capsule {
 
+// Panels by arc length from the outlet to the entrance, and the wall at their points, with the normal into the liquid.
+Panels wall_panels(const Pore &pore, const FlowResolution &resolution);
+Curve wall_curve(const Pore &pore, const Panels &along);
+
 class Wall {
 public:
   // Unbounded liquid that flows like this far away.

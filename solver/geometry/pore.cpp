@@ -100,17 +100,21 @@ std::optional<Pore> make_pore(const PoreSpec &spec) {
   const double degrees = spec.opening_angle_deg;
   if (!(degrees > 0 && degrees <= 90))
     throw InputError(fmt::format("pore.opening_angle_deg = {} is not in (0, 90]", degrees));
+  if (!(spec.exit_x > 0))
+    throw InputError(fmt::format("pore.exit_x = {} is not positive", spec.exit_x));
+  if (!(spec.entrance_distance > 1))
+    throw InputError(fmt::format("pore.entrance_distance = {} is not above 1", spec.entrance_distance));
+  const double alpha = degrees * std::numbers::pi / 180;
   Pore pore;
   pore.shape = spec.shape;
-  pore.exit_x = spec.exit_x;
-  pore.entrance_distance = spec.entrance_distance;
-  if (!(pore.exit_x > 0))
-    throw InputError(fmt::format("pore.exit_x = {} is not positive", pore.exit_x));
-  if (!(pore.entrance_distance > 1))
-    throw InputError(fmt::format("pore.entrance_distance = {} is not above 1", pore.entrance_distance));
-  const double alpha = degrees * std::numbers::pi / 180;
   pore.sine = std::sin(alpha);
   pore.cosine = degrees == 90 ? 0 : std::cos(alpha);
+  return with_ends(pore, spec.exit_x, spec.entrance_distance);
+}
+
+Pore with_ends(Pore pore, double exit_x, double entrance_distance) {
+  pore.exit_x = exit_x;
+  pore.entrance_distance = entrance_distance;
   const double reach = std::sqrt(pore.entrance_distance * pore.entrance_distance - 1);
   if (pore.shape == PoreShape::tube)
     pore.entrance_arc = pore.exit_x + pore.entrance_distance;

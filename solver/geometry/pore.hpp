@@ -21,6 +21,8 @@ struct Pore {
 };
 // Empty for PoreShape::none, which has no wall. Throws InputError for L_P, L_E or alpha out of range.
 std::optional<Pore> make_pore(const PoreSpec &spec);
+// The same mouth and tube with other ends.
+Pore with_ends(Pore pore, double exit_x, double entrance_distance);
 
 struct WallPoint {
   double x, r;

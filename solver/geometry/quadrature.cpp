@@ -111,7 +111,9 @@ Vector logarithm_weights(const GaussRule &rule, double t0) {
   return weights;
 }
 
-Matrix lagrange_matrix(const Vector &nodes, const Vector &points) {
+namespace {
+
+Vector barycentric_weights(const Vector &nodes) {
   const Eigen::Index n = nodes.size();
   Vector barycentric(n);
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -121,6 +123,14 @@ Matrix lagrange_matrix(const Vector &nodes, const Vector &points) {
         product *= 2 * (nodes[j] - nodes[k]); // factor 2: no under- or overflow on [-1, 1]
     barycentric[j] = 1 / product;
   }
+  return barycentric;
+}
+
+} // namespace
+
+Matrix lagrange_matrix(const Vector &nodes, const Vector &points) {
+  const Eigen::Index n = nodes.size();
+  const Vector barycentric = barycentric_weights(nodes);
   Matrix values(points.size(), n);
   for (Eigen::Index i = 0; i < points.size(); ++i) {
     const Vector gap = points[i] - nodes.array();
@@ -134,6 +144,19 @@ Matrix lagrange_matrix(const Vector &nodes, const Vector &points) {
     values.row(i) = terms.transpose() / terms.sum();
   }
   return values;
+}
+
+Matrix derivative_matrix(const Vector &nodes) {
+  const Eigen::Index n = nodes.size();
+  const Vector barycentric = barycentric_weights(nodes);
+  Matrix slopes = Matrix::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      if (i != j) {
+        slopes(i, j) = barycentric[j] / barycentric[i] / (nodes[i] - nodes[j]);
+        slopes(i, i) -= slopes(i, j); // that of a constant vanishes
+      }
+  return slopes;
 }
 
 } // namespace capsule

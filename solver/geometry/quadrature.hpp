@@ -34,5 +34,7 @@ Vector logarithm_weights(const GaussRule &rule, double t0);
 
 // values at `points` from values at `nodes` by the interpolating polynomial (barycentric); points x nodes.
 Matrix lagrange_matrix(const Vector &nodes, const Vector &points);
+// Derivatives at the nodes themselves.
+Matrix derivative_matrix(const Vector &nodes);
 
 } // namespace capsule

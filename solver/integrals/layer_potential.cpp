@@ -25,7 +25,7 @@ void find_nearest(const Panels &panels, SelfRule::Site &site) {
 
 } // namespace
 
-SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta) {
+SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta, int neighbours) {
   const Eigen::Index p = panels.rule.size();
   SelfRule self;
   for (const double zeta : target_zeta) {
@@ -33,8 +33,8 @@ SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta) {
     const double *end = begin + panels.edges.size();
     const Eigen::Index home =
         std::clamp<Eigen::Index>(std::upper_bound(begin, end, zeta) - begin - 1, 0, panels.count() - 1);
-    const Eigen::Index first = std::max<Eigen::Index>(home - 1, 0);
-    const Eigen::Index last = std::min(home + 1, panels.count() - 1);
+    const Eigen::Index first = std::max<Eigen::Index>(home - neighbours, 0);
+    const Eigen::Index last = std::min(home + neighbours, panels.count() - 1);
     SelfRule::Site site;
     site.zeta = zeta;
     site.first_point = first * p;
@@ -74,7 +74,13 @@ Matrix bend(const SelfRule &self, const std::function<Matrix(const Vector &zeta)
 
 namespace {
 
+Eigen::Index components(const RingKernel &kernel) {
+  return Eigen::Index{kernel.dimension} * kernel.dimension;
+}
+
 KernelRow rows_of(KernelBlock &block) {
+  if (block.rows() == 1)
+    return {block.data()};
   return {block.row(0).data(), block.row(1).data(), block.row(2).data(), block.row(3).data()};
 }
 
@@ -112,8 +118,8 @@ KernelBlock integrate_self(const RingKernel &kernel, const Targets &targets, Eig
       site.gap * (curve.r_zeta[nearest] - bend_r),
       -site.gap * (bend_x * curve.normal_x[nearest] + bend_r * curve.normal_r[nearest]);
 
-  KernelBlock smooth(4, n);
-  KernelBlock logarithmic(4, n);
+  KernelBlock smooth(components(kernel), n);
+  KernelBlock logarithmic(components(kernel), n);
   kernel.split(r0, rings, apart, rows_of(smooth), rows_of(logarithmic));
   const auto dx2 = apart.col(0).array().square();
   const auto dr2 = apart.col(1).array().square();
@@ -153,16 +159,16 @@ KernelBlock NearRule::refine(const RingKernel &kernel, double x0, double r0, con
   const double nearest =
       std::sqrt(((panel.col(0).array() - x0).square() + (panel.col(1).array() - r0).square()).minCoeff());
   if (depth > deepest)
-    return KernelBlock::Zero(4, panel.rows());
+    return KernelBlock::Zero(components(kernel), panel.rows());
   if (nearest < factor_ * half * arc.mean()) {
-    KernelBlock sum = KernelBlock::Zero(4, panel.rows());
+    KernelBlock sum = KernelBlock::Zero(components(kernel), panel.rows());
     for (const Matrix &child : halves_)
       sum.noalias() += refine(kernel, x0, r0, child * panel, half / 2, depth + 1) * child;
     return sum;
   }
   const Eigen::ArrayXd normal_x = -panel.col(3).array() / arc;
   const Eigen::ArrayXd normal_r = panel.col(2).array() / arc;
-  KernelBlock block(4, panel.rows());
+  KernelBlock block(components(kernel), panel.rows());
   kernel.plain(x0, r0,
                {static_cast<int>(panel.rows()), panel.col(0).data(), panel.col(1).data(), normal_x.data(),
                 normal_r.data()},
@@ -237,10 +243,10 @@ KernelBlock FixedNearRule::integrate(const RingKernel &kernel, double x0, double
   const auto &[fine, interpolation] = levels_[static_cast<std::size_t>(level) - 1];
   const Eigen::Index n = interpolation.rows();
   const Eigen::Index begin = panel * n;
-  KernelBlock values(4, n);
+  KernelBlock values(components(kernel), n);
   kernel.plain(x0, r0, rings_of(fine, begin, n), rows_of(values));
-  KernelBlock block = KernelBlock::Zero(4, p);
-  for (int component = 0; component < 4; ++component)
+  KernelBlock block = KernelBlock::Zero(values.rows(), p);
+  for (Eigen::Index component = 0; component < values.rows(); ++component)
     for (Eigen::Index k = 0; k < n; ++k)
       block.row(component) += (values(component, k) * fine.area[begin + k]) * interpolation.row(k);
   return block;
@@ -251,7 +257,8 @@ void assemble_layer(const RingKernel &kernel, const Targets &targets, const Curv
   const Eigen::Index nt = targets.size();
   const Eigen::Index q = curve.size();
   const Eigen::Index p = curve.panel_points;
-  matrix.resize(2 * nt, 2 * q);
+  const Eigen::Index dimension = kernel.dimension;
+  matrix.resize(dimension * nt, dimension * q);
   const Rings rings = rings_of(curve, 0, q);
   // Beyond this distance of a panel's first point all of it is out of reach.
   const Eigen::Index panels = q / p;
@@ -265,17 +272,20 @@ void assemble_layer(const RingKernel &kernel, const Targets &targets, const Curv
   for (Eigen::Index i = 0; i < nt; ++i) {
     const double x0 = targets.x[i];
     const double r0 = targets.r[i];
-    double *axial = matrix.row(i).data();
-    double *radial = matrix.row(nt + i).data();
-    kernel.plain(x0, r0, rings, {axial, axial + q, radial, radial + q});
-    for (double *component : {axial, axial + q, radial, radial + q})
-      Eigen::Map<Eigen::ArrayXd>(component, q) *= curve.area.array();
+    // Where a component of the target's velocity finds one of the densities.
+    const auto part = [&](Eigen::Index component) {
+      return matrix.row(component / dimension * nt + i).segment(component % dimension * q, q);
+    };
+    const Eigen::Index parts = components(kernel);
+    const auto begin = [&](Eigen::Index component) {
+      return component < parts ? part(component).data() : nullptr;
+    };
+    kernel.plain(x0, r0, rings, {begin(0), begin(1), begin(2), begin(3)});
+    for (Eigen::Index component = 0; component < parts; ++component)
+      part(component).array() *= curve.area.transpose().array();
     const auto replace = [&](const KernelBlock &block, Eigen::Index first) {
-      const Eigen::Index n = block.cols();
-      matrix.row(i).segment(first, n) = block.row(0);
-      matrix.row(i).segment(q + first, n) = block.row(1);
-      matrix.row(nt + i).segment(first, n) = block.row(2);
-      matrix.row(nt + i).segment(q + first, n) = block.row(3);
+      for (Eigen::Index component = 0; component < parts; ++component)
+        part(component).segment(first, block.cols()) = block.row(component);
     };
     Eigen::Index self_begin = 0;
     Eigen::Index self_end = 0;

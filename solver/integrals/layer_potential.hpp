@@ -1,8 +1,9 @@
 #pragma once
 // The integrals of eq. 16 as matrices: what densities at the quadrature points of a curve do to target
 // points. Every matrix has 2 n_t rows (axial, then radial velocity at the targets) and 2 Q columns (axial,
-// then radial density at the curve's points) and includes the area element; 1/(8 pi) is the caller's.
-// ring_stokeslet makes the single, ring_stresslet the double layer. Three kinds of panels are told apart:
+// then radial density at the curve's points) and includes the area element; 1/(8 pi) is the caller's. Those of
+// Laplace's equation are n_t x Q. ring_stokeslet and ring_source make the single, ring_stresslet and ring_dipole the
+// double layer. Three kinds of panels are told apart:
 //   far      the panel's own Gauss rule
 //   near     the panel is halved, with its polynomial interpolant, until its Gauss rule reaches the tolerance
 //   self     a target that lies on the curve: product weights for the logarithm on the panels that hold or
@@ -52,13 +53,15 @@ struct SelfRule {
   };
   std::vector<Site> sites; // one a target
 };
-SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta);
+// neighbours: how many panels beside its own have product weights for a target; none where the curve is not smooth
+// from one panel to the next.
+SelfRule make_self_rule(const Panels &panels, const Vector &target_zeta, int neighbours = 1);
 // One component of `bend`, a row for each target, from the second derivative at any points.
 Matrix bend(const SelfRule &self, const std::function<Matrix(const Vector &zeta)> &second_derivative);
 
-// Weights (kernel, area and interpolation) of points of a curve for one target: rows xx, xr, rx, rr as in
-// ring_kernel.hpp, a column a point.
-using KernelBlock = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::RowMajor>;
+// Weights (kernel, area and interpolation) of points of a curve for one target: a row for each of the kernel's
+// components in the order xx, xr, rx, rr of ring_kernel.hpp, a column a point.
+using KernelBlock = RowMatrix;
 
 // The near rule for panels of p points: which targets need it, and the weights that it gives.
 class NearRule {

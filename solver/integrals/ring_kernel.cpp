@@ -57,55 +57,97 @@ struct Components {
           .over_R = std::sqrt(R2) * m1.over_denominator};
 }
 
-// From the integrals B, D and E/d^2. The rings' C drops out: m (D - C) = B - m1 D.
-[[gnu::always_inline]] inline Components stokeslet(const Pair &p, double b, double d, double e_over_d2) {
-  const double f = 4 * p.over_R;
-  const double g = 2 * d * p.over_R2;
-  return {.xx = f * (b + d + p.dx * p.dx * e_over_d2),
-          .xr = f * p.dx * (p.dr * e_over_d2 + p.r0 * g),
-          .rx = f * p.dx * (p.dr * e_over_d2 - p.r * g),
-          .rr = f * (d * (1 + p.m1) - 2 * b + p.dr * p.dr * (e_over_d2 - g))};
-}
+struct Stokeslet {
+  static constexpr int dimension = 2;
+  static constexpr bool takes_normal = false;
+  // From the integrals B, D and E/d^2. The rings' C drops out: m (D - C) = B - m1 D.
+  [[gnu::always_inline]] static Components value(const Pair &p, double b, double d, double e_over_d2) {
+    const double f = 4 * p.over_R;
+    const double g = 2 * d * p.over_R2;
+    return {.xx = f * (b + d + p.dx * p.dx * e_over_d2),
+            .xr = f * p.dx * (p.dr * e_over_d2 + p.r0 * g),
+            .rx = f * p.dx * (p.dr * e_over_d2 - p.r * g),
+            .rr = f * (d * (1 + p.m1) - 2 * b + p.dr * p.dr * (e_over_d2 - g))};
+  }
 
-[[gnu::always_inline]] inline Components stokeslet(const Pair &p, const EllipticIntegrals &i) {
-  return stokeslet(p, i.b, i.d, (i.b + p.m1 * i.d) * p.over_d2);
-}
+  [[gnu::always_inline]] static Components value(const Pair &p, const Normal & /*normal*/,
+                                                 const EllipticIntegrals &i) {
+    return value(p, i.b, i.d, (i.b + p.m1 * i.d) * p.over_d2);
+  }
 
-// E = B + m1 D has the factor m1, which turns 1/d^2 into 1/R^2.
-[[gnu::always_inline]] inline Components stokeslet(const Pair &p, const EllipticLogarithms &i) {
-  return stokeslet(p, p.m1 * i.b_over_m1, i.d, (i.b_over_m1 + i.d) * p.over_R2);
-}
+  // E = B + m1 D has the factor m1, which turns 1/d^2 into 1/R^2.
+  [[gnu::always_inline]] static Components value(const Pair &p, const Normal & /*normal*/,
+                                                 const EllipticLogarithms &i) {
+    return value(p, p.m1 * i.b_over_m1, i.d, (i.b_over_m1 + i.d) * p.over_R2);
+  }
+};
 
-// The vector from target to ring has the components dx, dr - 2 r c at the target, dr + 2 r0 c at the ring,
-// and e.n = a + b c; I_n = int c^n/Delta^5. Given are 3 a I_0/R^4, 3 I_1/R^4, 3 I_2/R^4 and 3 m I_3/R^2.
-[[gnu::always_inline]] inline Components stresslet(const Pair &p, double a, double b, double a_i0, double i1,
-                                                   double i2, double m_i3) {
-  const double f = std::numbers::inv_pi * p.over_R;
-  const double g = a_i0 + b * i1;
-  const double h = 2 * (a * i1 + b * i2);
-  return {.xx = f * (p.dx * p.dx * g),
-          .xr = f * p.dx * (p.dr * g + p.r0 * h),
-          .rx = f * p.dx * (p.dr * g - p.r * h),
-          .rr = f * (p.dr * p.dr * (g - h) - 4 * p.r * p.r0 * a * i2 - b * m_i3)};
-}
+struct Stresslet {
+  static constexpr int dimension = 2;
+  static constexpr bool takes_normal = true;
+  // The vector from target to ring has the components dx, dr - 2 r c at the target, dr + 2 r0 c at the ring,
+  // and e.n = a + b c; I_n = int c^n/Delta^5. Given are 3 a I_0/R^4, 3 I_1/R^4, 3 I_2/R^4 and 3 m I_3/R^2.
+  [[gnu::always_inline]] static Components value(const Pair &p, double a, double b, double a_i0, double i1,
+                                                 double i2, double m_i3) {
+    const double f = std::numbers::inv_pi * p.over_R;
+    const double g = a_i0 + b * i1;
+    const double h = 2 * (a * i1 + b * i2);
+    return {.xx = f * (p.dx * p.dx * g),
+            .xr = f * p.dx * (p.dr * g + p.r0 * h),
+            .rx = f * p.dx * (p.dr * g - p.r * h),
+            .rr = f * (p.dr * p.dr * (g - h) - 4 * p.r * p.r0 * a * i2 - b * m_i3)};
+  }
 
-[[gnu::always_inline]] inline Components stresslet(const Pair &p, const Normal &normal,
-                                                   const EllipticIntegrals &i) {
-  const double a = normal.along;
-  const double quintic = (2 + p.m1) * i.b + p.m1 * (1 + 2 * p.m1) * i.d;
-  return stresslet(p, a, 2 * p.r0 * normal.r, (a * p.over_d2) * quintic * p.over_d2,
-                   (i.b + 2 * p.m1 * i.d) * p.over_d2 * p.over_R2, (i.c + 2 * i.d) * p.over_R2 * p.over_R2,
-                   (i.d - 4 * i.c + p.m * (i.c + 2 * i.d)) * p.over_R2);
-}
+  [[gnu::always_inline]] static Components value(const Pair &p, const Normal &normal,
+                                                 const EllipticIntegrals &i) {
+    const double a = normal.along;
+    const double quintic = (2 + p.m1) * i.b + p.m1 * (1 + 2 * p.m1) * i.d;
+    return value(p, a, 2 * p.r0 * normal.r, (a * p.over_d2) * quintic * p.over_d2,
+                 (i.b + 2 * p.m1 * i.d) * p.over_d2 * p.over_R2, (i.c + 2 * i.d) * p.over_R2 * p.over_R2,
+                 (i.d - 4 * i.c + p.m * (i.c + 2 * i.d)) * p.over_R2);
+  }
 
-[[gnu::always_inline]] inline Components stresslet(const Pair &p, const Normal &normal,
-                                                   const EllipticLogarithms &i) {
-  const double a = normal.along;
-  const double over_R4 = p.over_R2 * p.over_R2;
-  return stresslet(p, a, 2 * p.r0 * normal.r, a * i.quintic_over_m1_squared * over_R4,
-                   (i.b_over_m1 + 2 * i.d) * over_R4, (i.c + 2 * i.d) * over_R4,
-                   (i.d - 4 * i.c + p.m * (i.c + 2 * i.d)) * p.over_R2);
-}
+  [[gnu::always_inline]] static Components value(const Pair &p, const Normal &normal,
+                                                 const EllipticLogarithms &i) {
+    const double a = normal.along;
+    const double over_R4 = p.over_R2 * p.over_R2;
+    return value(p, a, 2 * p.r0 * normal.r, a * i.quintic_over_m1_squared * over_R4,
+                 (i.b_over_m1 + 2 * i.d) * over_R4, (i.c + 2 * i.d) * over_R4,
+                 (i.d - 4 * i.c + p.m * (i.c + 2 * i.d)) * p.over_R2);
+  }
+};
+
+// K = B + D
+struct Source {
+  static constexpr int dimension = 1;
+  static constexpr bool takes_normal = false;
+  [[gnu::always_inline]] static double value(const Pair &p, const Normal & /*normal*/,
+                                             const EllipticIntegrals &i) {
+    return std::numbers::inv_pi * p.over_R * (i.b + i.d);
+  }
+  [[gnu::always_inline]] static double value(const Pair &p, const Normal & /*normal*/,
+                                             const EllipticLogarithms &i) {
+    return std::numbers::inv_pi * p.over_R * (p.m1 * i.b_over_m1 + i.d);
+  }
+};
+
+// int 1/Delta^3 = E/m1 and int c/Delta^3 = D
+struct Dipole {
+  static constexpr int dimension = 1;
+  static constexpr bool takes_normal = true;
+  [[gnu::always_inline]] static double value(const Pair &p, const Normal &normal, double d,
+                                             double e_over_d2) {
+    return std::numbers::inv_pi * p.over_R * (normal.along * e_over_d2 + 2 * p.r0 * normal.r * d * p.over_R2);
+  }
+  [[gnu::always_inline]] static double value(const Pair &p, const Normal &normal,
+                                             const EllipticIntegrals &i) {
+    return value(p, normal, i.d, (i.b + p.m1 * i.d) * p.over_d2);
+  }
+  [[gnu::always_inline]] static double value(const Pair &p, const Normal &normal,
+                                             const EllipticLogarithms &i) {
+    return value(p, normal, i.d, (i.b_over_m1 + i.d) * p.over_R2);
+  }
+};
 
 [[gnu::always_inline]] inline void store(const KernelRow &out, int k, const Components &value) {
   out.xx[k] = value.xx;
@@ -114,42 +156,27 @@ struct Components {
   out.rr[k] = value.rr;
 }
 
-// The four kernels as the loop sees them: one row of components for each part.
-struct Stokeslet {
-  static constexpr bool takes_normal = false;
-  static constexpr std::size_t parts = 1;
-  [[gnu::always_inline]] static void evaluate(const Pair &p, const Normal & /*normal*/,
-                                              const std::array<KernelRow, parts> &out, int k) {
-    store(out[0], k, stokeslet(p, elliptic_integrals(p.m, p.m1, p.ln_m1)));
-  }
-};
+[[gnu::always_inline]] inline void store(const KernelRow &out, int k, double value) {
+  out.xx[k] = value;
+}
 
-struct Stresslet {
-  static constexpr bool takes_normal = true;
+// Kernels as the loop sees them: one row of components for each part.
+template <class Kernel>
+struct Plain : Kernel {
   static constexpr std::size_t parts = 1;
   [[gnu::always_inline]] static void evaluate(const Pair &p, const Normal &normal,
                                               const std::array<KernelRow, parts> &out, int k) {
-    store(out[0], k, stresslet(p, normal, elliptic_integrals(p.m, p.m1, p.ln_m1)));
+    store(out[0], k, Kernel::value(p, normal, elliptic_integrals(p.m, p.m1, p.ln_m1)));
   }
 };
 
-struct StokesletSplit {
-  static constexpr bool takes_normal = false;
-  static constexpr std::size_t parts = 2;
-  [[gnu::always_inline]] static void evaluate(const Pair &p, const Normal & /*normal*/,
-                                              const std::array<KernelRow, parts> &out, int k) {
-    store(out[0], k, stokeslet(p, elliptic_integrals(p.m, p.m1, 0)));
-    store(out[1], k, stokeslet(p, elliptic_logarithmic(p.m1)));
-  }
-};
-
-struct StressletSplit {
-  static constexpr bool takes_normal = true;
+template <class Kernel>
+struct Split : Kernel {
   static constexpr std::size_t parts = 2;
   [[gnu::always_inline]] static void evaluate(const Pair &p, const Normal &normal,
                                               const std::array<KernelRow, parts> &out, int k) {
-    store(out[0], k, stresslet(p, normal, elliptic_integrals(p.m, p.m1, 0)));
-    store(out[1], k, stresslet(p, normal, elliptic_logarithmic(p.m1)));
+    store(out[0], k, Kernel::value(p, normal, elliptic_integrals(p.m, p.m1, 0)));
+    store(out[1], k, Kernel::value(p, normal, elliptic_logarithmic(p.m1)));
   }
 };
 
@@ -211,9 +238,11 @@ template <class Kernel, class Source>
   }
   for (std::size_t part = 0; part < Kernel::parts; ++part) {
     std::copy_n(rows[part].xx, count, out[part].xx);
-    std::copy_n(rows[part].xr, count, out[part].xr);
-    std::copy_n(rows[part].rx, count, out[part].rx);
-    std::copy_n(rows[part].rr, count, out[part].rr);
+    if constexpr (Kernel::dimension == 2) {
+      std::copy_n(rows[part].xr, count, out[part].xr);
+      std::copy_n(rows[part].rx, count, out[part].rx);
+      std::copy_n(rows[part].rr, count, out[part].rr);
+    }
   }
 }
 
@@ -273,11 +302,15 @@ void by_separation(double r0, const Rings &rings, const Separations &apart, cons
       logarithmic);
 }
 
+template <class Processor, class Kernel>
+RingKernel kernel_for() {
+  return {Kernel::dimension, by_position<Processor, Plain<Kernel>>, by_separation<Processor, Split<Kernel>>};
+}
+
 template <class Processor>
 RingKernels kernels_for(const std::string &instructions) {
-  return {instructions,
-          {by_position<Processor, Stokeslet>, by_separation<Processor, StokesletSplit>},
-          {by_position<Processor, Stresslet>, by_separation<Processor, StressletSplit>}};
+  return {instructions, kernel_for<Processor, Stokeslet>(), kernel_for<Processor, Stresslet>(),
+          kernel_for<Processor, Source>(), kernel_for<Processor, Dipole>()};
 }
 
 const RingKernels &best() {
@@ -313,18 +346,20 @@ Separations separations(double x0, double r0, const Rings &rings) {
   return apart;
 }
 
-const RingKernel ring_stokeslet = {
-    [](double x0, double r0, const Rings &rings, const KernelRow &out) {
-      best().stokeslet.plain(x0, r0, rings, out);
-    },
-    [](double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
-       const KernelRow &logarithmic) { best().stokeslet.split(r0, rings, apart, smooth, logarithmic); }};
+// The best of a kind, found when it is first called.
+template <RingKernel RingKernels::*kind, int dimension>
+constexpr RingKernel best_of() {
+  return {dimension,
+          [](double x0, double r0, const Rings &rings, const KernelRow &out) {
+            (best().*kind).plain(x0, r0, rings, out);
+          },
+          [](double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
+             const KernelRow &logarithmic) { (best().*kind).split(r0, rings, apart, smooth, logarithmic); }};
+}
 
-const RingKernel ring_stresslet = {
-    [](double x0, double r0, const Rings &rings, const KernelRow &out) {
-      best().stresslet.plain(x0, r0, rings, out);
-    },
-    [](double r0, const Rings &rings, const Separations &apart, const KernelRow &smooth,
-       const KernelRow &logarithmic) { best().stresslet.split(r0, rings, apart, smooth, logarithmic); }};
+const RingKernel ring_stokeslet = best_of<&RingKernels::stokeslet, 2>();
+const RingKernel ring_stresslet = best_of<&RingKernels::stresslet, 2>();
+const RingKernel ring_source = best_of<&RingKernels::source, 1>();
+const RingKernel ring_dipole = best_of<&RingKernels::dipole, 1>();
 
 } // namespace capsule

@@ -188,4 +188,31 @@ BOOST_AUTO_TEST_CASE(near_rule_meets_the_surface) {
   BOOST_TEST((on - off).cwiseAbs().maxCoeff() < 1e-8);
 }
 
+// int e.n/(4 pi |e|^3) dA = 1 inside, 1/2 on, 0 outside.
+BOOST_AUTO_TEST_CASE(gauss_identity_of_the_dipole) {
+  const double a = 0.385, b = 1.3757;
+  const Spheroid s = spheroid(a, b, 96);
+  const Vector one = Vector::Ones(s.curve.size());
+  const auto furthest_from = [&](double expected, const Targets &targets, bool on_surface) {
+    return ((assemble(ring_dipole, targets, s, on_surface) * one).array() - expected).abs().maxCoeff();
+  };
+  BOOST_TEST(furthest_from(0.5, s.nodes, true) < 1e-9);
+  for (const double distance : {1e-4, 0.02, 0.5})
+    BOOST_TEST(furthest_from(0, shifted(s, a, b, distance), false) < 1e-9);
+  for (const double depth : {1e-4, 0.02})
+    BOOST_TEST(furthest_from(1, shifted(s, a, b, -depth), false) < 1e-9);
+}
+
+// A sphere with an even charge has the potential a on and inside.
+BOOST_AUTO_TEST_CASE(charged_sphere) {
+  const double a = 0.7;
+  const Spheroid s = spheroid(a, a, 48);
+  const Vector one = Vector::Ones(s.curve.size());
+  for (const double depth : {0.0, 0.02, 0.3}) {
+    const bool on_surface = depth == 0;
+    const Targets targets = on_surface ? s.nodes : shifted(s, a, a, -depth);
+    BOOST_TEST(((assemble(ring_source, targets, s, on_surface) * one).array() - a).abs().maxCoeff() < 1e-10);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

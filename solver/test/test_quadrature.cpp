@@ -57,4 +57,10 @@ BOOST_AUTO_TEST_CASE(interpolation_reproduces_polynomials) {
       1e-13);
 }
 
+BOOST_AUTO_TEST_CASE(derivative_of_polynomials) {
+  const Vector nodes = gauss_legendre(9).nodes;
+  const Vector slopes = derivative_matrix(nodes) * nodes.array().pow(8).matrix();
+  BOOST_TEST((slopes - 8 * nodes.array().pow(7).matrix()).cwiseAbs().maxCoeff() < 1e-12);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -116,6 +116,8 @@ struct BruteForce {
   Components stokeslet;
   Components stresslet;
   double stresslet_bound;
+  Components source; // alone as xx
+  Components dipole;
 };
 
 // With tan(phi/2) = e^u the integrand is analytic for |Im u| < pi/2 however near the target is, so the
@@ -126,7 +128,7 @@ BruteForce brute_force(const Point &target, const Ring &ring) {
   const double h = 0.2;
   const int first = static_cast<int>(std::floor((std::log(nearest / farthest) - 44) / h));
   const int last = static_cast<int>(std::ceil(44 / h));
-  std::array<Wide, 9> sum{};
+  std::array<Wide, 11> sum{};
   const Wide growth = exp(Wide(h));
   Wide t = exp(Wide(first * h));
   for (int i = first; i <= last; ++i) {
@@ -151,14 +153,18 @@ BruteForce brute_force(const Point &target, const Ring &ring) {
       }
     }
     sum[8] += weight * over_rho * over_rho;
+    sum[9] += weight * over_rho;
+    sum[10] -= weight * dot(difference, normal) * over_rho3; // from target to ring
     t *= growth;
   }
-  std::array<double, 9> result{};
+  std::array<double, 11> result{};
   std::transform(sum.begin(), sum.end(), result.begin(),
                  [](const Wide &value) { return static_cast<double>(value); });
   return {{result[0], result[1], result[2], result[3]},
           {result[4], result[5], result[6], result[7]},
-          3 / (4 * pi) * result[8]};
+          3 / (4 * pi) * result[8],
+          {result[9] / (4 * pi), 0, 0, 0},
+          {result[10] / (4 * pi), 0, 0, 0}};
 }
 
 struct Case {
@@ -349,6 +355,14 @@ BOOST_AUTO_TEST_CASE(kernels_equal_brute_force) {
                    stokeslet_tolerance);
         BOOST_TEST(distance(single_split_sum(kernels.stresslet.split, c.target, c.ring), exact.stresslet) <
                    stresslet_tolerance);
+        const double source_tolerance = 1e-15 * largest(exact.source);
+        const double dipole_tolerance = stresslet_tolerance / 3;
+        BOOST_TEST(distance(single(kernels.source.plain, c.target, c.ring), exact.source) < source_tolerance);
+        BOOST_TEST(distance(single(kernels.dipole.plain, c.target, c.ring), exact.dipole) < dipole_tolerance);
+        BOOST_TEST(distance(single_split_sum(kernels.source.split, c.target, c.ring), exact.source) <
+                   source_tolerance);
+        BOOST_TEST(distance(single_split_sum(kernels.dipole.split, c.target, c.ring), exact.dipole) <
+                   dipole_tolerance);
       }
     }
   }
@@ -358,6 +372,8 @@ BOOST_AUTO_TEST_CASE(public_functions_are_the_first_available_set) {
   const RingKernels best = available_ring_kernels().front();
   const Point target{0.1, 0.4};
   const Ring ring{0.3, 0.7, 0.6, 0.8};
+  BOOST_TEST(distance(single(ring_source.plain, target, ring), single(best.source.plain, target, ring)) == 0);
+  BOOST_TEST(distance(single(ring_dipole.plain, target, ring), single(best.dipole.plain, target, ring)) == 0);
   BOOST_TEST(
       distance(single(ring_stokeslet.plain, target, ring), single(best.stokeslet.plain, target, ring)) == 0);
   BOOST_TEST(
@@ -381,11 +397,17 @@ BOOST_AUTO_TEST_CASE(any_number_of_rings) {
       std::fill(rows.rr.begin(), rows.rr.end(), untouched);
       const Point target{0.33, 0.44};
       kernels.stresslet.plain(target.x, target.r, rings.view(), rows.view());
+      Rows scalars(most + 1);
+      std::fill(scalars.xx.begin(), scalars.xx.end(), untouched);
+      kernels.dipole.plain(target.x, target.r, rings.view(), {scalars.xx.data()});
       for (int k = 0; k < count; ++k) {
         const Components one = single(kernels.stresslet.plain, target, rings[k]);
         BOOST_TEST(distance(rows[k], one) <= 1e-15 * largest(one));
+        const Components dipole = single(kernels.dipole.plain, target, rings[k]);
+        BOOST_TEST(distance(scalars[k], dipole) <= 1e-15 * largest(dipole));
       }
       BOOST_TEST(rows.rr[count] == untouched);
+      BOOST_TEST(scalars.xx[count] == untouched);
     }
   }
 }
