@@ -151,6 +151,9 @@ expect 2 '^--set:1:1: error: ' "$capsule" run file.toml --set 'ωflow.viscosity=
 expect 2 "^did you mean 'flow.viscosity_ratio'" "$capsule" run file.toml --set flow.viscosity_rato=1
 expect 2 '^--set:1:1: error: expected key=value' "$capsule" run file.toml --set flow.viscosity_ratio
 expect 2 '^--set:1:22: error: flow.viscosity_ratio = -1' "$capsule" run file.toml --set flow.viscosity_ratio=-1
+expect 2 '^--set:1:12: error: steady states are computed at a given flow rate' \
+  "$capsule" steady file.toml --set flow.drive=pressure
+expect 2 "^--set:1:12: error: unknown flow.drive 'pump'" "$capsule" run file.toml --set flow.drive=pump
 for typed in 1.0d-3 1d-3 0,04 .04; do
   expect 2 '^write [01].[0-9e.-]*$' "$capsule" run file.toml --set "flow.capillary_number=$typed"
 done

@@ -31,7 +31,10 @@ struct Checks {
     if (c.flow.type != FlowType::pore)
       chosen.complain({"flow.type", "numerics"}, "numerics = \"paper\" computes no unbounded liquid",
                       "flow.type = \"extension\" needs numerics = \"standard\"");
-    else if (c.pore.shape != PoreShape::hyperbolic)
+    if (c.flow.drive != DriveBy::flow_rate)
+      chosen.complain({"flow.drive", "numerics"}, "numerics = \"paper\" has a given flow rate only",
+                      "flow.drive = \"pressure\" needs numerics = \"standard\"");
+    if (c.flow.type == FlowType::pore && c.pore.shape != PoreShape::hyperbolic)
       chosen.complain({"pore.shape", "numerics"}, "numerics = \"paper\" has the hyperbolic pore only",
                       "another pore.shape needs numerics = \"standard\"");
   }
@@ -116,6 +119,11 @@ struct Checks {
     if (!task.motion && c.numerics == Numerics::paper)
       chosen.complain({"numerics"}, "numerics = \"paper\" only marches in time",
                       "steady states need numerics = \"standard\"");
+    if (!task.motion && c.flow.drive == DriveBy::pressure)
+      chosen.complain(
+          {"flow.drive"}, "steady states are computed at a given flow rate",
+          "under constant pressure they are the same at flow_rate times flow.capillary_number: leave "
+          "out flow.drive");
     if (c.flow.type == FlowType::extension)
       check_extension();
     else if (c.pore.shape == PoreShape::none)

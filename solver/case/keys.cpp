@@ -146,9 +146,13 @@ std::vector<Key> membrane_keys() {
 
 std::vector<Key> flow_keys() {
   return {
-      {"flow.type", "given flow rate through the pore, or uniaxial extension of an unbounded liquid",
+      {"flow.type", "through the pore, or uniaxial extension of an unbounded liquid",
        choice<FlowType>(CAPSULE_AT(flow.type), {"pore", "extension"}), any_number},
-      parameter({"flow.capillary_number", "epsilon = mu Q/(pi R_t^2 G); extension: mu e a/G",
+      in_a_pore({"flow.drive",
+                 "what is constant: the flow rate, or the pressure drop from the reservoir to pore.exit_x",
+                 choice<DriveBy>(CAPSULE_AT(flow.drive), {"flow-rate", "pressure"}), any_number}),
+      parameter({"flow.capillary_number",
+                 "epsilon = mu Q/(pi R_t^2 G), Q without a capsule; extension: mu e a/G",
                  member<double>(CAPSULE_AT(flow.capillary_number)), above(0), "required", true}),
       {"flow.viscosity_ratio", "internal over external viscosity, lambda",
        member<double>(CAPSULE_AT(flow.viscosity_ratio)), from_to(1e-4, 1e4)},

@@ -1,6 +1,7 @@
 #pragma once
 // What a case says, a struct for each section of a case file. All lengths are scaled with R_t, velocities with
 // Q/(pi R_t^2), times with pi R_t^3/Q, pressures with mu Q/(pi R_t^3), tensions with G, bending moments with G R_t.
+// Where the pressure is given, Q is the flow rate that it drives through the empty pore.
 // The keys of a case file are the names below, joined by dots: "pore.exit_x".
 #include "case/units.hpp"
 #include "law/law.hpp"
@@ -13,7 +14,8 @@ namespace capsule {
 
 enum class PoreShape { hyperbolic, tube, none };
 enum class FlowType { pore, extension };
-enum class Numerics { standard, paper }; // the best preset we have; section 3 of the paper
+enum class DriveBy { flow_rate, pressure }; // what is given and constant
+enum class Numerics { standard, paper };    // the best preset we have; section 3 of the paper
 enum class Scheme { bdf, euler, rk4 };
 
 struct PoreSpec {
@@ -45,6 +47,7 @@ struct MembraneSpec {
 
 struct FlowSpec {
   FlowType type = FlowType::pore;
+  DriveBy drive = DriveBy::flow_rate;
   double capillary_number = 0; // epsilon
   double viscosity_ratio = 1;  // lambda
 };

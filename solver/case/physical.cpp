@@ -121,7 +121,8 @@ Scales physical_scales(const Case &physics) {
           .velocity = rate / (pi * radius * radius),
           .time = pi * std::pow(radius, 3) / rate,
           .pressure = physics.physical.viscosity.si * rate / (pi * std::pow(radius, 3)),
-          .tension = shear_modulus(physics)};
+          .tension = shear_modulus(physics),
+          .flow_rate = rate};
 }
 
 } // namespace capsule

@@ -1,7 +1,7 @@
 #pragma once
 // A case in physical units: the dimensionless groups that follow from its quantities (section 2.2 of the paper), and the
 // scales that turn results back.
-//   length R_t, velocity Q/(pi R_t^2), time pi R_t^3/Q, pressure mu Q/(pi R_t^3), tension G
+//   length R_t, velocity Q/(pi R_t^2), time pi R_t^3/Q, pressure mu Q/(pi R_t^3), tension G, flow rate Q
 // Everything is held in SI units. Throws nothing.
 #include "case/case.hpp"
 #include <string>
@@ -38,7 +38,7 @@ std::string reynolds_text(const Case &physics);
 bool is_inertia_small(const Case &physics);
 
 struct Scales {
-  double length = 1, velocity = 1, time = 1, pressure = 1, tension = 1;
+  double length = 1, velocity = 1, time = 1, pressure = 1, tension = 1, flow_rate = 1;
 };
 Scales physical_scales(const Case &physics);
 

@@ -218,6 +218,7 @@ private:
     SeriesRow row = gauge_.row(time, position, state.velocity);
     row.pressure_drop = state.pressure_drop;
     row.pressure_drop_reciprocal = state.pressure_drop_reciprocal;
+    row.flow_rate = state.flow_rate;
     record_.series.push_back(row);
     if (station.profile)
       record_.profiles.push_back(gauge_.profile(time, position, state.velocity));

@@ -71,6 +71,14 @@ constexpr std::array quantities{
                    "exit does to the flow",
         .value = &SeriesRow::pressure_drop_reciprocal,
         .of_the_pore = true},
+    ReportedQuantity{
+        .name = "flow_rate",
+        .meaning =
+            "Q over that without a capsule: 1, or less where `flow.drive = \"pressure\"` keeps the pressure",
+        .value = &SeriesRow::flow_rate,
+        .unit = PhysicalUnit{&Scales::flow_rate, dimension::flow_rate},
+        .error = ErrorEstimate::of_marches,
+        .of_the_pore = true},
     ReportedQuantity{.name = "front_stretch",
                      .meaning = "meridional stretch ratio at the downstream pole",
                      .value = &SeriesRow::front_stretch,

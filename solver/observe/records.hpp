@@ -16,6 +16,7 @@ struct SeriesRow {
   double v_g = 0;
   double pressure_drop = 0;
   double pressure_drop_reciprocal = 0;
+  double flow_rate = 1;
   double max_stretch = 0;
   double front_stretch = 0;
   double min_film = 0;

@@ -1,4 +1,5 @@
 #include "scene/make_flow.hpp"
+#include <utility>
 
 namespace capsule {
 
@@ -10,10 +11,11 @@ Wall make_wall(const std::optional<Pore> &pore, FlowType type, const FlowResolut
 
 Flow make_flow(const std::optional<Pore> &pore, const FlowSpec &spec, const MeridianBasis &basis,
                const FlowResolution &resolution) {
-  return {make_wall(pore, spec.type, resolution),
-          make_membrane_mesh(basis, resolution),
-          {.viscosity_ratios = {spec.viscosity_ratio}},
-          resolution.solver_tolerance};
+  Wall wall = make_wall(pore, spec.type, resolution);
+  FlowParameters parameters{.viscosity_ratios = {spec.viscosity_ratio}};
+  if (spec.drive == DriveBy::pressure)
+    parameters.drive.resistance = wall.base_pressure_drop();
+  return {std::move(wall), make_membrane_mesh(basis, resolution), parameters, resolution.solver_tolerance};
 }
 
 } // namespace capsule

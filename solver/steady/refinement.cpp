@@ -56,6 +56,7 @@ SteadyRecord measure(const SteadyState &state) {
   record.profile.x_g = 0;
   record.row.pressure_drop = flow.pressure_drop;
   record.row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
+  record.row.flow_rate = flow.flow_rate;
   return record;
 }
 

@@ -612,6 +612,8 @@ BOOST_AUTO_TEST_CASE(geometry_that_cannot_be) {
                  "--set:1:12: error: numerics = \"paper\" has the hyperbolic pore only");
   check_contains(message({"numerics=paper", "flow.type=extension", "until.time=1"}),
                  "--set:1:11: error: numerics = \"paper\" computes no unbounded liquid");
+  check_contains(message({"numerics=paper", "flow.drive=pressure"}),
+                 "--set:1:12: error: numerics = \"paper\" has a given flow rate only");
   check_contains(message({"flow.type=extension"}), "--set:1:11: error: an extension needs until.time");
   check_contains(message({"flow.type=extension", "until.time=1", "capsule.radius=0.9"}),
                  "--set:1:16: error: in an extension lengths are scaled");
@@ -634,6 +636,7 @@ BOOST_AUTO_TEST_CASE(keys_that_mean_nothing) {
                {"pore.entrance_distance=20", "flow.type = \"extension\""},
                {"mesh.wall=100", "flow.type = \"extension\""},
                {"until.x_g=3", "flow.type = \"extension\""},
+               {"flow.drive=pressure", "flow.type = \"extension\""},
                {"output.profiles_at_x_g=[1]", "flow.type = \"extension\""},
                {"physical.tube_radius='5 um'", "flow.type = \"extension\""}}},
         Scene{{"membrane.law=neo-hookean"},

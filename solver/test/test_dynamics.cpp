@@ -87,4 +87,33 @@ BOOST_AUTO_TEST_CASE(what_is_no_capsule_in_the_pore) {
              }) == "exit");
 }
 
+// Everything is linear in flow rate and load: what the capsule does at constant pressure at one instant, it does Q times
+// faster than at the constant flow rate Q, with the capillary number of that. So it takes the same shapes in the same order
+// when that flow rate is given as a function of time. The empty pore's drop is known to 1e-5.
+BOOST_AUTO_TEST_CASE(constant_pressure_is_a_given_flow_rate_at_each_instant) {
+  const double empty = 8 * 15 + 4.92457;
+  for (const double viscosity_ratio : {0.2, 1.0, 5.0}) {
+    Case physics = mouth_case();
+    physics.flow.viscosity_ratio = viscosity_ratio;
+    physics.accuracy = 1e-5;
+    physics.pore.entrance_distance = 100;
+    physics.flow.drive = DriveBy::pressure;
+    const Dynamics driven = make_dynamics(physics);
+    Vector position = driven.scene->start;
+    const Eigen::Index n = position.size() / 2;
+    position.head(n) *= 1.2;
+    position.tail(n) /= std::sqrt(1.2);
+    const FlowState state = driven.report(position, true);
+    BOOST_TEST(std::abs(state.flow_rate - 1) > 1e-3);
+    BOOST_TEST(std::abs(state.flow_rate - (1 - state.pressure_drop / empty)) < 1e-6);
+    physics.flow.drive = DriveBy::flow_rate;
+    physics.flow.capillary_number *= state.flow_rate;
+    const FlowState given = make_dynamics(physics).report(position, true);
+    const double q = state.flow_rate;
+    BOOST_TEST((state.velocity - q * given.velocity).cwiseAbs().maxCoeff() < 1e-7);
+    BOOST_TEST(std::abs(state.pressure_drop - q * given.pressure_drop) < 1e-6);
+    BOOST_TEST(std::abs(state.pressure_drop_reciprocal - q * given.pressure_drop_reciprocal) < 1e-5);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

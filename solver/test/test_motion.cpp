@@ -323,4 +323,52 @@ BOOST_AUTO_TEST_CASE(a_long_extension_keeps_its_centre) {
   BOOST_TEST(std::abs(last.deformation - steady(physics, {}, {}).last.series.at(0).deformation) < 1e-6);
 }
 
+// A stiff sphere under constant pressure: Q/Q0 = P/(P + Delta P), with the drops of the empty pore, P = 57.849, and of a
+// rigid sphere. Its small deformation takes a term of the first order in the capillary number.
+BOOST_AUTO_TEST_CASE(stiff_capsule_under_constant_pressure) {
+  const auto flow_rate = [](double capillary_number) {
+    Case physics;
+    physics.capsule.radius = 0.8;
+    physics.capsule.start_x = 3;
+    physics.pore.exit_x = 6.6155;
+    physics.flow.drive = DriveBy::pressure;
+    physics.flow.capillary_number = capillary_number;
+    physics.membrane.law = neo_hookean;
+    physics.accuracy = 1e-5;
+    physics.until.time = 100 * capillary_number;
+    const Outcome outcome = march(physics, {}, {});
+    BOOST_REQUIRE(outcome.status == Status::reached);
+    return outcome.last.series.back().flow_rate;
+  };
+  const double coarse = flow_rate(1e-3), fine = flow_rate(5e-4);
+  BOOST_TEST(std::abs(2 * fine - coarse - 0.88206) < 1e-5);
+}
+
+// The steady state at constant pressure is that of the flow rate that it comes to.
+BOOST_AUTO_TEST_CASE(steady_state_under_constant_pressure) {
+  Case physics;
+  physics.pore.shape = PoreShape::tube;
+  physics.pore.exit_x = physics.pore.entrance_distance = 10;
+  physics.capsule.radius = 0.8;
+  physics.capsule.start_x = -1;
+  physics.flow.drive = DriveBy::pressure;
+  physics.flow.capillary_number = 0.01;
+  physics.membrane.law = neo_hookean;
+  physics.membrane.bending_ratio = 1e-3;
+  physics.until.time = 2;
+  const Outcome outcome = march(physics, {}, {});
+  BOOST_REQUIRE(outcome.status == Status::reached);
+  const SeriesRow end = outcome.last.series.back();
+  BOOST_TEST(end.max_radial_velocity < 1e-5);
+  physics.flow.drive = DriveBy::flow_rate;
+  physics.flow.capillary_number *= end.flow_rate;
+  const SeriesRow given = steady(physics, {}, {}).last.series.back();
+  BOOST_TEST(given.flow_rate == 1);
+  BOOST_TEST(end.flow_rate == 1 - end.pressure_drop / 160, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(end.v_g == end.flow_rate * given.v_g, boost::test_tools::tolerance(1e-5));
+  BOOST_TEST(end.pressure_drop == end.flow_rate * given.pressure_drop, boost::test_tools::tolerance(1e-4));
+  BOOST_TEST(end.length == given.length, boost::test_tools::tolerance(1e-5));
+  BOOST_TEST(outcome.error_estimate.at("flow_rate") < 1e-4);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -80,6 +80,7 @@ BOOST_AUTO_TEST_CASE(scales_turn_results_back) {
   BOOST_TEST(scales.time == 5e-6 / mean_velocity, tolerance);
   BOOST_TEST(8 * scales.pressure / scales.length == 8 * 1e-3 * mean_velocity / 25e-12, tolerance);
   BOOST_TEST(scales.tension == 2e-5, tolerance);
+  BOOST_TEST(scales.flow_rate == 1e-13, tolerance);
 }
 
 // In a long tube the mouth counts for little and Poiseuille's law gives the flow rate; a longer tube halves it.
