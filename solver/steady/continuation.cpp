@@ -103,7 +103,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     now.parameter += change[m];
     // A large slack is the error of a coarse mesh only if no correction is left: then corrections go on for longer.
     const bool slack_is_small = std::abs(now.unknowns[m - 1]) <= largest_slack;
-    const double enough = slack_is_small ? tolerance : std::max(tolerance / 100, 1e-13);
+    const double enough = slack_is_small ? tolerance : std::max(tolerance / 100, position_tolerance);
     if (next < enough * std::sqrt(weight_)) {
       right.setZero();
       right[m] = 1;
@@ -204,7 +204,7 @@ BranchPoint Branch::fold() const {
   const double h = 0.03 * std::min(-first, last);
   const Vector bend_before = points_ > 2 ? bend_towards(oldest_) : Vector::Zero(tangent_before_.size());
   const Vector bend_after = bend_towards(point_);
-  constexpr double tolerance = 1e-13; // the slope along the arc is as exact as the point
+  constexpr double tolerance = 1e-11; // the slope along the arc is as exact as the point
   const auto at = [&](double step) {
     return correct(before_, tangent_before_, step, tolerance, step < 0 ? bend_before : bend_after);
   };

@@ -22,11 +22,13 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
   double step = first_step, most_growth = 10;
   for (int k = 0; k < most_steps && step > shortest_step && system.largest_stretch(shape) < torn; ++k) {
     throw_if_interrupted(control);
-    if (linear.residual.head(n2).cwiseAbs().maxCoeff() < at_rest)
-      return shape;
     Matrix implicit = linear.jacobian;
     implicit.diagonal().head(n2).array() -= 1 / step;
     const Vector change = implicit.partialPivLu().solve(-linear.residual);
+    const double moved = change.head(n2).cwiseAbs().maxCoeff();
+    if (moved <
+        at_rest * std::min(step, 1.0)) // rounding errors may be left in the residual of a stiff membrane
+      return shape;
     double error = std::numeric_limits<double>::infinity();
     std::optional<SteadySystem::Linearisation> next;
     if (system.admissible_step(shape, change) == 1)
@@ -40,7 +42,7 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
     if (error < too_much) {
       shape += change;
       linear = std::move(*next);
-      if (step > long_step && change.head(n2).cwiseAbs().maxCoeff() < near)
+      if (step > long_step && moved < near)
         return shape;
     }
     step *= std::clamp(intended / error, 0.25, most_growth);
