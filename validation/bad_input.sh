@@ -43,6 +43,12 @@ flow.viscosity_ratio = \"one\"" | bad '4:24: error: .* must be a number'
 for typed in 1.0d-3 1d-3 0,05 .05; do
   echo "$good" | sed "s/0.04/$typed/" | bad "3:25: error: '$typed' is not a number; write [01].[0-9e.-]*$"
 done
+printf 'flow.type = "extension"\nuntil.time = 1\n%s\noutput.resistance = true\n' "$good" | sed /radius/d |
+  bad '5:21: error: output.resistance means nothing to flow.type = "extension"'
+echo "$good
+output.resistance = 1" | bad '4:21: error: output.resistance must be true or false, not 1'
+printf '%s\noutput.resistance = true\nnumerics = "paper"\n' "$good" |
+  bad '4:21: error: numerics = "paper" computes no resistance'
 echo "$good
 pore.opening_angle_deg = 120" | bad '4:26: error: .* is out of range'
 echo 'membrane.law = "skalak"

@@ -8,6 +8,7 @@ accuracy = 1e-2
 membrane.law = "skalak"
 membrane.bending_ratio = 1e-3
 until.time = 0.1
+output.resistance = true
 [physical]
 tube_radius = "5 um"
 capsule_radius = "3 um"

@@ -12,6 +12,7 @@ membrane.dilatation = 0
 flow.capillary_number = 0.04
 flow.viscosity_ratio = 5
 until.x_g = 8
+output.resistance = true
 output.profiles_at_x_g = [-3, -1, 0, 1, 2, 3, 4, 5, 6, 7]
 TOML
 

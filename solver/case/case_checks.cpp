@@ -37,6 +37,9 @@ struct Checks {
     if (c.flow.type == FlowType::pore && c.pore.shape != PoreShape::hyperbolic)
       chosen.complain({"pore.shape", "numerics"}, "numerics = \"paper\" has the hyperbolic pore only",
                       "another pore.shape needs numerics = \"standard\"");
+    if (c.output.resistance)
+      chosen.complain({"output.resistance", "numerics"}, "numerics = \"paper\" computes no resistance",
+                      "output.resistance = true needs numerics = \"standard\"");
   }
 
   void check_extension() {

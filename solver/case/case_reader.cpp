@@ -31,8 +31,6 @@ std::string type_in_words(const toml::node &node) {
   switch (node.type()) {
   case toml::node_type::table:
     return "a table";
-  case toml::node_type::boolean:
-    return node.as_boolean()->get() ? "true" : "false";
   case toml::node_type::array:
     return "a list";
   default:
@@ -41,6 +39,8 @@ std::string type_in_words(const toml::node &node) {
 }
 
 Value to_value(const toml::node &node) {
+  if (const auto *truth = node.as_boolean())
+    return truth->get();
   if (const auto *text = node.as_string())
     return text->get();
   if (const auto *integer = node.as_integer())

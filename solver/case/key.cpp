@@ -66,6 +66,13 @@ struct Setter {
   const Value &value;
   Case &physics;
 
+  std::optional<Complaint> operator()(const Member<bool> &member) const {
+    const bool *truth = std::get_if<bool>(&value);
+    if (!truth)
+      return wrong_type(key, "true or false", value);
+    member.in(physics) = *truth;
+    return std::nullopt;
+  }
   std::optional<Complaint> operator()(const Member<std::string> &member) const {
     const auto *text = std::get_if<std::string>(&value);
     if (!text)
@@ -131,11 +138,14 @@ struct Setter {
   }
 };
 
-// get_value for each kind of field. Zero and empty stand for "not given".
+// get_value for each kind of field. False, zero and empty stand for "not given".
 struct Getter {
   const Key &key;
   const Case &physics;
 
+  std::optional<Value> operator()(const Member<bool> &member) const {
+    return member.of(physics) ? std::optional<Value>(true) : std::nullopt;
+  }
   std::optional<Value> operator()(const Member<std::string> &member) const {
     return member.of(physics).empty() ? std::nullopt : std::optional<Value>(member.of(physics));
   }
@@ -178,6 +188,7 @@ std::string toml_string(const std::string &text) {
 
 struct Writer {
   std::string operator()(const Unsupported &other) const { return other.what; }
+  std::string operator()(bool truth) const { return truth ? "true" : "false"; }
   std::string operator()(const std::string &text) const { return toml_string(text); }
   std::string operator()(std::int64_t integer) const { return std::to_string(integer); }
   std::string operator()(double number) const { return number_text(number); }
@@ -220,6 +231,8 @@ std::string allowed_text(const Key &key) {
     return quoted_list(choice->names);
   if (const auto *measured = std::get_if<Measured>(&key.field))
     return examples_text(measured->dimension);
+  if (std::holds_alternative<Member<bool>>(key.field))
+    return "true or false";
   if (std::holds_alternative<Member<std::string>>(key.field))
     return "any text";
   if (std::holds_alternative<Member<int>>(key.field))

@@ -15,11 +15,11 @@ namespace capsule {
 
 struct Case;
 
-// A value as it stands in a file. Unsupported: something no key takes, in words ("a boolean").
+// A value as it stands in a file. Unsupported: something no key takes, in words ("a date or time").
 struct Unsupported {
   std::string what;
 };
-using Value = std::variant<Unsupported, std::string, std::int64_t, double, std::vector<double>>;
+using Value = std::variant<Unsupported, bool, std::string, std::int64_t, double, std::vector<double>>;
 
 // Where a key's value lives in a Case.
 template <class T>
@@ -37,8 +37,8 @@ struct Measured {
   Member<Quantity> member;
   Dimension dimension;
 };
-using Field = std::variant<Member<std::string>, Member<double>, Member<int>, Member<std::optional<double>>,
-                           Member<std::vector<double>>, Choice, Measured>;
+using Field = std::variant<Member<bool>, Member<std::string>, Member<double>, Member<int>,
+                           Member<std::optional<double>>, Member<std::vector<double>>, Choice, Measured>;
 
 // What a key is to a steady state.
 enum class SteadyRole {

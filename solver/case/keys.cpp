@@ -236,6 +236,8 @@ std::vector<Key> output_keys() {
                      member<std::vector<double>>(CAPSULE_AT(output.profiles_at_x_g)), any_number, "none"})),
       of_motion({"output.profiles_at_time", "times at which the profile is written",
                  member<std::vector<double>>(CAPSULE_AT(output.profiles_at_time)), at_least(0), "none"}),
+      in_a_pore({"output.resistance", "whether the electric resistance that the capsule adds is reported",
+                 member<bool>(CAPSULE_AT(output.resistance)), any_number, "false"}),
   };
 }
 

@@ -80,6 +80,7 @@ struct PhysicalSpec {
 struct OutputSpec {
   std::vector<double> profiles_at_x_g;
   std::vector<double> profiles_at_time;
+  bool resistance = false;
 };
 
 } // namespace capsule

@@ -83,7 +83,8 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
   const std::vector<RowPair> pairs = pair_rows(fine, coarse, place);
   for (const auto &[row, other] : pairs) {
     for (const ReportedQuantity &quantity : reported_quantities()) {
-      if (quantity.error != ErrorEstimate::of_marches && quantity.error != ErrorEstimate::of_all)
+      if ((quantity.error != ErrorEstimate::of_marches && quantity.error != ErrorEstimate::of_all) ||
+          !is_reported(quantity, *row))
         continue;
       const double difference = quantity.value == &SeriesRow::deformation
                                     ? deformation_difference(*row, *other)

@@ -25,7 +25,9 @@ public:
   March(const Case &input, const Checkpoint &from, const Control &control, Role role, double roughness_limit)
       : input_(input), control_(control), role_(role),
         roughness_limit_(role == Role::main ? roughness_limit : std::numeric_limits<double>::infinity()),
-        dynamics_(make_dynamics(input)), gauge_(dynamics_.scene->pore, dynamics_.scene->membrane),
+        dynamics_(make_dynamics(input)),
+        gauge_(dynamics_.scene->pore, dynamics_.scene->membrane,
+               input.output.resistance ? std::optional(choose_resolution(input).flow) : std::nullopt),
         record_(from) {
     // Not the centre of the start's shape, whose rounding may lie on either side of a place that is asked for.
     const double centre = started() ? gauge_.centre(record_.position) : input.capsule.start_x;
@@ -51,6 +53,8 @@ public:
                                     last.x_g, failure.advice);
     }
     outcome.last = record_;
+    if (const auto empty = gauge_.empty_resistance())
+      outcome.further["empty_resistance"] = *empty;
     return outcome;
   }
 

@@ -17,7 +17,7 @@ Case companion(const Case &input) {
   coarse.mesh.wall = 9 * chosen.wall_points / 10;
   coarse.time.step = input.time.step / 0.9; // as stable on its nodes as the fine one's
   coarse.time.tolerance = 5 * chosen.time_tolerance;
-  coarse.output = {};
+  coarse.output = {.profiles_at_x_g = {}, .profiles_at_time = {}, .resistance = input.output.resistance};
   return coarse;
 }
 

@@ -1,4 +1,5 @@
 #include "observe/gauge.hpp"
+#include "electric/long_conductor.hpp"
 #include "geometry/quadrature.hpp"
 #include <algorithm>
 #include <cmath>
@@ -88,10 +89,16 @@ double roughness_of(const Vector &amplitudes) {
 
 } // namespace
 
-Gauge::Gauge(const std::optional<Pore> &pore, const Membrane &membrane)
+Gauge::Gauge(const std::optional<Pore> &pore, const Membrane &membrane,
+             const std::optional<FlowResolution> &conductor)
     : membrane_(membrane), pore_(pore), panels_(integration_points(membrane.basis)),
       fine_(pole_to_pole(membrane.basis)) {
   initial_ = integrals(membrane_.reference);
+  if (pore_ && conductor) {
+    const FlowResolution resolution = conductor_resolution(*conductor);
+    conductor_.emplace(*pore_, resolution);
+    conductor_mesh_ = make_membrane_mesh(membrane_.basis, resolution);
+  }
   waves_ = waves_from_nodes(membrane_.basis.nodes);
 
   // S by Gauss's rule between neighbouring points.
@@ -217,7 +224,15 @@ SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity
   row.deformation = (row.length - diameter) / (row.length + diameter);
   row.roughness = roughness_of(waves_ * position.head(n));
   row.dents = count_dents(state, fine_.zeta[1] - fine_.zeta[0]);
+  if (conductor_) {
+    row.resistance = conductor_->change(conductor_mesh_, position);
+    row.resistance_long_conductor = long_conductor_change(*pore_, membrane_.basis, position);
+  }
   return row;
+}
+
+std::optional<double> Gauge::empty_resistance() const {
+  return conductor_ ? std::optional(conductor_->empty_resistance()) : std::nullopt;
 }
 
 Profile Gauge::profile(double time, const Vector &position, const Vector &velocity) const {

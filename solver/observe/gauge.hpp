@@ -1,5 +1,6 @@
 #pragma once
 // Measures what a run reports (records.hpp) on the shapes of a membrane.
+#include "electric/conductor.hpp"
 #include "geometry/pore.hpp"
 #include "membrane/membrane.hpp"
 #include "observe/records.hpp"
@@ -15,15 +16,19 @@ constexpr double dent_angle = 0.15;
 // points four times as dense as the nodes with a quartic through the best five.
 class Gauge {
 public:
-  Gauge(const std::optional<Pore> &pore, const Membrane &membrane); // no pore: unbounded liquid
+  // No pore: unbounded liquid. Resistances in a pore are measured with the digits of this flow, if one is given.
+  Gauge(const std::optional<Pore> &pore, const Membrane &membrane,
+        const std::optional<FlowResolution> &conductor = std::nullopt);
 
   double centre(const Vector &position) const; // x_g
   // Smallest distance to the wall, negative beyond it; infinite without a wall.
   double film(const Vector &position) const;
   // Whether the meridian crosses itself.
   bool crosses_itself(const Vector &position) const;
-  // All but the pressure drops.
+  // All but the pressure drops. Throws what Conductor throws.
   SeriesRow row(double time, const Vector &position, const Vector &velocity) const;
+  // Of the pore without a capsule, where resistances are measured.
+  std::optional<double> empty_resistance() const;
   Profile profile(double time, const Vector &position, const Vector &velocity) const;
 
 private:
@@ -39,6 +44,8 @@ private:
   Vector arc_from_pole_; // S at the points of fine_
   Matrix waves_;         // nodal values of x -> amplitudes of cos(k zeta)
   Integrals initial_{};
+  std::optional<Conductor> conductor_;
+  MembraneMesh conductor_mesh_;
 };
 
 } // namespace capsule

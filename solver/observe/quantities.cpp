@@ -1,6 +1,7 @@
 #include "observe/quantities.hpp"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 
@@ -122,6 +123,27 @@ constexpr std::array quantities{
         .meaning = "share of the bending that lies in the mesh's shortest third of waves: large where the "
                    "mesh cannot resolve the shape",
         .value = &SeriesRow::roughness},
+    ReportedQuantity{
+        .name = "resistance",
+        .meaning =
+            "with `output.resistance`: electric resistance that the capsule adds to the pore, in rho/(pi "
+            "R_t), that of a pore radius of empty tube; the liquid conducts, wall and membrane insulate",
+        .value = &SeriesRow::resistance,
+        .error = ErrorEstimate::of_all,
+        .agreement = tenth_of_value,
+        .of_the_pore = true,
+        .branch_column = 11,
+        .if_asked = true},
+    ReportedQuantity{.name = "resistance_long_conductor",
+                     .meaning =
+                         "the same by the paper's estimate, slices of a long conductor in series, with "
+                         "the outermost radius where a concave end gives several",
+                     .value = &SeriesRow::resistance_long_conductor,
+                     .error = ErrorEstimate::of_all,
+                     .agreement = tenth_of_value,
+                     .of_the_pore = true,
+                     .branch_column = 12,
+                     .if_asked = true},
 };
 static_assert(quantities.size() * sizeof(double) == sizeof(SeriesRow), "a line for each member of SeriesRow");
 
@@ -150,6 +172,10 @@ constexpr std::array of_a_profile{
 
 std::string name_with_unit(const char *name, const PhysicalUnit &unit) {
   return fmt::format("{} [{}]", name, unit_text(unit.dimension));
+}
+
+bool is_reported(const ReportedQuantity &quantity, const SeriesRow &row) {
+  return !quantity.if_asked || !std::isnan(row.*quantity.value);
 }
 
 std::span<const ReportedQuantity> reported_quantities() {

@@ -44,7 +44,10 @@ struct ReportedQuantity {
   Agreement agreement = {};
   bool of_the_pore = false; // means nothing in an unbounded liquid
   int branch_column = 0;    // its place in branch.csv, from 1 on; 0: not there
+  bool if_asked = false;    // only where the case asks for it; not a number otherwise
 };
+// Whether a row has the quantity: one that was not asked for has no column.
+bool is_reported(const ReportedQuantity &quantity, const SeriesRow &row);
 // In the order of series.csv.
 std::span<const ReportedQuantity> reported_quantities();
 // Those of branch.csv, and of folds, in their order.

@@ -1,6 +1,7 @@
 #pragma once
 // What a run reports: a row of numbers for an instant, a profile along the meridian. Scales as in case/parameters.hpp.
 #include "base/linear_algebra.hpp"
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct SeriesRow {
   double max_radial_velocity = 0;
   double dents = 0;
   double roughness = 0;
+  double resistance = std::numeric_limits<double>::quiet_NaN();
+  double resistance_long_conductor = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct Profile {

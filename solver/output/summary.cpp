@@ -74,8 +74,9 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   const bool has_pore = physics.flow.type == FlowType::pore;
   const auto applies = [&](const ReportedQuantity &quantity) { return has_pore || !quantity.of_the_pore; };
   for (const ReportedQuantity &quantity : reported_quantities())
-    json[quantity.name] =
-        applies(quantity) && !series.empty() ? finite_or_null(series.back().*quantity.value) : Json();
+    if (is_reported(quantity, series.empty() ? SeriesRow{} : series.back()))
+      json[quantity.name] =
+          applies(quantity) && !series.empty() ? finite_or_null(series.back().*quantity.value) : Json();
   const bool moved = outcome.status != Status::steady && outcome.along.empty();
   const auto peak = moved && has_pore ? entry_peak(series) : std::nullopt;
   for (const PeakQuantity &quantity : peak_quantities())
@@ -90,7 +91,7 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
     for (const BranchRow &fold : outcome.folds) {
       Json entry{{outcome.along, fold.parameter}, {"growth_rate", fold.growth_rate}};
       for (const ReportedQuantity &quantity : branch_quantities())
-        if (applies(quantity))
+        if (applies(quantity) && is_reported(quantity, fold.row))
           entry[quantity.name] = finite_or_null(fold.row.*quantity.value);
       json["folds"].push_back(std::move(entry));
     }

@@ -36,7 +36,8 @@ std::string csv_of(const std::vector<Column> &columns, const std::vector<SeriesR
 std::string series_csv(const std::vector<SeriesRow> &series) {
   std::vector<Column> columns;
   for (const ReportedQuantity &quantity : reported_quantities())
-    columns.push_back({quantity.name, quantity.value});
+    if (is_reported(quantity, series.empty() ? SeriesRow{} : series.front()))
+      columns.push_back({quantity.name, quantity.value});
   return csv_of(columns, series);
 }
 
@@ -55,7 +56,10 @@ std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow
 }
 
 std::string branch_csv(const Outcome &outcome) {
-  const std::vector<ReportedQuantity> quantities = branch_quantities();
+  std::vector<ReportedQuantity> quantities = branch_quantities();
+  std::erase_if(quantities, [&](const ReportedQuantity &quantity) {
+    return !is_reported(quantity, outcome.branch.empty() ? SeriesRow{} : outcome.branch.front().row);
+  });
   std::vector<std::string> fields{outcome.along};
   std::ranges::transform(quantities, std::back_inserter(fields), &ReportedQuantity::name);
   fields.emplace_back("growth_rate");

@@ -20,7 +20,7 @@ std::map<std::string, double> errors_of(const SeriesRow &fine, const SeriesRow &
     const double value = fine.*quantity.value;
     if (quantity.error == ErrorEstimate::by_value_itself)
       errors[quantity.name] = std::abs(value);
-    else if (quantity.error == ErrorEstimate::of_all)
+    else if (quantity.error == ErrorEstimate::of_all && is_reported(quantity, fine))
       errors[quantity.name] = std::abs(value - coarse.*quantity.value) +
                               (quantity.value == &SeriesRow::pressure_drop ? quadrature : relative);
   }
@@ -33,7 +33,7 @@ bool agree(const SeriesRow &a, const SeriesRow &b, double accuracy) {
   return std::ranges::all_of(reported_quantities(), [&](const ReportedQuantity &quantity) {
     const auto &[share, relative] = quantity.agreement;
     const double value = a.*quantity.value;
-    return share == 0 ||
+    return share == 0 || !is_reported(quantity, a) ||
            std::abs(value - b.*quantity.value) <= share * accuracy * (relative ? std::abs(value) : 1);
   });
 }
@@ -47,7 +47,9 @@ std::string poorly_resolved(int nodes) {
 // Row and profile of a state with its centre at x = 0; no rates yet.
 SteadyRecord measure(const SteadyState &state) {
   const SteadySystem &system = *state.system;
-  const Gauge gauge(system.pore(), system.membrane());
+  const Gauge gauge(system.pore(), system.membrane(),
+                    system.input().output.resistance ? std::optional(system.resolution().flow)
+                                                     : std::nullopt);
   Vector position = state.unknowns.head(2 * system.nodes());
   position.head(system.nodes()).array() -= gauge.centre(position);
   const FlowState flow = system.flow(position);

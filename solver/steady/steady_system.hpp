@@ -29,6 +29,7 @@ public:
   Eigen::Index nodes() const { return membrane_.basis.size(); }
   Vector undeformed() const; // unknowns of the undeformed capsule, at about the speed of a rigid sphere
   const Membrane &membrane() const { return membrane_; }
+  const Resolution &resolution() const { return resolution_; }
   double largest_stretch(const Vector &unknowns) const;     // meridional, at the nodes
   const std::optional<Pore> &pore() const { return pore_; } // the tube that stands for it
 

@@ -138,4 +138,17 @@ BOOST_AUTO_TEST_CASE(entry_peak_of_a_pulse) {
   BOOST_TEST(!entry_peak({}));
 }
 
+// Values of test_conductor and test_long_conductor.
+BOOST_AUTO_TEST_CASE(resistance_where_it_is_asked_for) {
+  const Body b = sphere(0.8, 60);
+  const Vector position = moved(b.membrane.reference, 1), at_rest = Vector::Zero(120);
+  BOOST_TEST(std::isnan(b.gauge.row(0, position, at_rest).resistance));
+  BOOST_TEST(!b.gauge.empty_resistance().has_value());
+  const Gauge gauge(make_pore({}), b.membrane, FlowResolution{});
+  const SeriesRow row = gauge.row(0, position, at_rest);
+  BOOST_TEST(std::abs(row.resistance - 1.728995) < 3e-6);
+  BOOST_TEST(std::abs(row.resistance_long_conductor - 1.490984) < 1e-6);
+  BOOST_TEST(std::abs(gauge.empty_resistance().value() - 15.9773755) < 3e-6);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
