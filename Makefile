@@ -105,5 +105,4 @@ coverage: setup
 	@cmake/coverage.sh
 
 clean:
-	rm -rf build build-* results figures/*/ figures/gallery.md tables/*.md report.html
-	find tables -name '*.csv' ! -name published.csv -delete
+	@cmake/clean.sh

@@ -88,12 +88,12 @@ grep -q 'of another capsule: radius 0.8 there, 0.95 here' log || fail 'another r
 # A case's march and its steady states have places of their own; what takes another's place says so.
 ends 0 run case.toml --set until.x_g=-3.5
 home=results/$(basename "$place")
-cp $home/summary.json marched
+cp "$home/summary.json" marched
 ends 0 steady case.toml
 ends 0 branch case.toml --along $key --to 0.101
-cmp marched $home/summary.json || fail 'the march is gone'
+cmp marched "$home/summary.json" || fail 'the march is gone'
 for method in steady branch; do
-  grep -q "\"task\": \"$method" $home/$method/run.json || fail "no $method in $home/$method"
+  grep -q "\"task\": \"$method" "$home/$method/run.json" || fail "no $method in $home/$method"
 done
 grep -q replaces log && fail 'something is replaced'
 ends 0 run case.toml --set until.x_g=-3.4

@@ -1,7 +1,7 @@
 #!/bin/sh
 # What the Makefile does beyond CMake: a build directory that came with a copy of the tree, or was moved with it, is
 # configured anew and nothing is written where it came from; `make test` ends with the tests that were skipped; `make
-# sweep` takes the case's name as it is typed.
+# sweep` takes the case's name as it is typed; `make clean` removes what it has made.
 #   sh validation/makefile.sh path/to/capsule
 . "$(dirname "$0")/lib/program.sh"
 # What a make that runs this test hands down is not for the make that is tested: it would speak of levels.
@@ -67,4 +67,17 @@ done
 make_in first sweep CASE='cases/my case.toml' SSH='one,two two,:' || fail 'make sweep'
 [ "$(cat first/swept)" = '<cases/my case.toml><100%><one,two two,:>' ] || fail "not as it is typed: $(cat first/swept)"
 [ ! -e first/evil ] || fail 'a name is executed'
+# `make clean` leaves what nobody has built, computed or drawn.
+mkdir -p first/build-notes first/tables first/figures/one first/figures/mine first/results first/cases/one
+for file in cases/one/case.toml tables/one.csv tables/one.md tables/ledger.csv tables/table2.md figures/one/drawn.svg; do
+  : >"first/$file"
+done
+for file in tables/published.csv tables/mine.csv tables/mine.md tables/table.csv tables/table2-mine.csv \
+  figures/mine/photo.png figures/style.gp build-notes/notes; do
+  : >"first/$file"
+  echo "first/$file" >>stay
+done
+make_in first clean || fail 'make clean'
+(cd first && find tables figures build* results -type f 2>/dev/null | sed 's|^|first/|' | sort) >left
+sort stay | cmp - left || fail "make clean leaves this: $(cat left)"
 echo 'a copy is configured anew, skipped tests are listed, names are taken as they are typed'

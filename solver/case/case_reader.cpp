@@ -313,7 +313,7 @@ fs::path case_file_of(const fs::path &path) {
 
 std::string case_name_of(const fs::path &file) {
   std::error_code ignored;
-  const fs::path whole = fs::weakly_canonical(file, ignored);
+  const fs::path whole = fs::absolute(file, ignored).lexically_normal(); // a link goes by its own name
   std::string directory = whole.parent_path().filename().string();
   if (whole.filename() == "case.toml")
     return directory;
