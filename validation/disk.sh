@@ -58,7 +58,7 @@ for size in 4k 8k 16k 64k 128k 256k 512k 1m 2m 4m; do
   output=$("$capsule" run case.toml --out disk/out --jobs $((full % 2 + 1)) 2>&1) && break
   code=$?
   [ "$code" -eq 4 ] || fail "ended with $code with $size: $output"
-  echo "$output" | grep -Eq "^error: cannot (write|create directory) 'disk/out.*': No space left on device" || fail "$output"
+  echo "$output" | grep -Eq "^error: (bending_ratio=[^:]*: )?cannot (write|create directory) 'disk/out.*': No space left on device" || fail "$output"
   full=$((full + 1))
   for run in disk/out/*/; do
     [ ! -e "$run/summary.json" ] || [ ! -e "$run/checkpoint.json" ] || fail "$run is finished and is not"
@@ -74,8 +74,8 @@ mount -o remount,ro disk || fail 'remount'
 expect 0 'computed before' "$capsule" run case.toml --out disk/out
 expect 0 'finished in' "$capsule" show case.toml --out disk/out
 expect 0 'NOTHING TO COMPARE' "$capsule" check case.toml --out disk/out
-expect 4 "error: cannot .*'disk/out/.*': Read-only file system" "$capsule" run case.toml --out disk/out --fresh
-expect 4 "error: cannot .*'disk/other.*': Read-only file system" "$capsule" run case.toml --out disk/other
+expect 4 "error: .*cannot .*'disk/out/.*': Read-only file system" "$capsule" run case.toml --out disk/out --fresh
+expect 4 "error: .*cannot .*'disk/other.*': Read-only file system" "$capsule" run case.toml --out disk/other
 expect 4 "error: cannot .*'disk/table.csv': Read-only file system" "$capsule" check case.toml --out disk/out --table disk/table
 numbers disk/out >got
 cmp expected got || fail 'something is lost'

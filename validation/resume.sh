@@ -39,6 +39,17 @@ code=0
 [ "$code" -eq 130 ] || fail "exit code $code after the time limit"
 "$capsule" run case.toml --out interrupted
 
+# A checkpoint with a position that is not a number, and half of one: said to be damaged, and the run begins again.
+for damage in 's/"position":\[[^,]*/"position":["nan"/' 's/"position".*//'; do
+  code=0
+  "$capsule" run case.toml --out damaged --time-limit 1 || code=$?
+  [ "$code" -eq 130 ] || fail "exit code $code after the time limit"
+  sed -i "$damage" damaged/checkpoint.json
+  "$capsule" show case.toml --out damaged | grep -q '% done' && fail 'show believes a damaged checkpoint'
+done
+"$capsule" run case.toml --out damaged >log 2>&1 || fail 'a damaged checkpoint'
+grep -q "^case: the checkpoint in 'damaged' is damaged .*: the run begins again" log || fail 'nothing is said of the damage'
+
 # A sweep whose first process is killed: its children save and end, or finish; then it goes on.
 sweep='sweep."membrane.dilatation"=[0, 1]'
 "$capsule" run case.toml --set "$sweep" --jobs 2 --out sweep &
@@ -50,7 +61,7 @@ wait "$process" && fail 'survived being killed'
 "$capsule" run case.toml --set "$sweep" --jobs 2 --out sweep
 
 numbers whole >expected
-for directory in killed interrupted sweep/dilatation=0; do
+for directory in killed interrupted damaged sweep/dilatation=0; do
   numbers "$directory" >got
   cmp expected got || fail "$directory is not the run that was never interrupted"
 done

@@ -108,8 +108,12 @@ std::vector<std::string> make_all(const std::string &directory, unsigned jobs,
   };
   work.watch = [] {};
   work.finished = [](std::size_t, int) {};
+  std::exception_ptr failure;
+  work.failed = [&](std::size_t, const std::exception_ptr &what) { failure = what; };
   SharedState shared(tasks.size());
   run_in_processes(work, shared);
+  if (failure)
+    std::rethrow_exception(failure);
   std::vector<std::string> texts;
   for (const TextTask &task : tasks) {
     std::ifstream file(parts / task.name);

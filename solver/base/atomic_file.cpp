@@ -102,15 +102,15 @@ void write_atomically(const fs::path &file, std::string_view content) {
     fail_at("cannot write", file, error);
 }
 
-void share_file(const fs::path &from, const fs::path &to) {
-  std::error_code ec;
+void copy_atomically(const fs::path &from, const fs::path &to) {
+  std::error_code ec, ignored;
   const fs::path temporary = own_temporary(to);
-  fs::create_hard_link(from, temporary, ec);
-  if (ec && !fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, ec))
-    fail_at("cannot write", temporary, ec.value());
-  fs::rename(temporary, to, ec);
-  if (ec)
-    fail_at("cannot write", to, ec.value());
+  if (fs::copy_file(from, temporary, fs::copy_options::overwrite_existing, ec))
+    fs::rename(temporary, to, ec);
+  if (!ec)
+    return;
+  fs::remove(temporary, ignored);
+  fail_at("cannot write", to, ec.value());
 }
 
 void remove_file(const fs::path &file) {

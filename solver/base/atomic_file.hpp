@@ -17,8 +17,7 @@ namespace capsule {
 std::string read_file(const std::filesystem::path &file);
 void make_directories(const std::filesystem::path &directory);
 void write_atomically(const std::filesystem::path &file, std::string_view content);
-// Makes `to` the same file as `from`, as atomically: by a hard link, or a copy where links are impossible.
-void share_file(const std::filesystem::path &from, const std::filesystem::path &to);
+void copy_atomically(const std::filesystem::path &from, const std::filesystem::path &to);
 // Does nothing if there is no such file.
 void remove_file(const std::filesystem::path &file);
 std::vector<std::filesystem::path> files_in(const std::filesystem::path &directory,

@@ -1,9 +1,9 @@
 #include "case/identity.hpp"
 #include "base/build_info.hpp"
+#include "base/digest.hpp"
 #include "base/text.hpp"
 #include "case/case.hpp"
 #include "case/keys.hpp"
-#include <cstdint>
 #include <fmt/format.h>
 
 namespace capsule {
@@ -48,12 +48,7 @@ bool same_input(const Case &a, const Case &b, const Task &task) {
 }
 
 std::string run_identity(const Case &physics, const Task &task) {
-  // FNV-1a, 64 bit
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const char c :
-       fmt::format("{}\n{}\n{}", build_info::source_digest, task.name, what_counts(physics, task)))
-    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return fmt::format("{:016x}", hash);
+  return digest(fmt::format("{}\n{}\n{}", build_info::source_digest, task.name, what_counts(physics, task)));
 }
 
 } // namespace capsule

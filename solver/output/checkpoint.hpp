@@ -1,5 +1,5 @@
 #pragma once
-// checkpoint.json: everything from which an unfinished run goes on, bit by bit the same.
+// checkpoint.json: everything from which an unfinished run goes on, bit by bit the same, with a digest of it.
 // Every function throws FileError with the path and the system's reason.
 #include "observe/outcome.hpp"
 #include <filesystem>
@@ -21,8 +21,16 @@ struct SavedRun {
 };
 void write_checkpoint(const std::filesystem::path &directory, const std::string &identity,
                       const SavedRun &saved);
-// Nothing if there is none, or one of another run.
-std::optional<SavedRun> read_checkpoint(const std::filesystem::path &directory, const std::string &identity);
+
+// What there is of a run.
+struct FoundCheckpoint {
+  std::optional<SavedRun> run = {};
+  bool of_another_run = false;
+  std::string damage = {}; // why it is of no use, if it is not what was written
+};
+FoundCheckpoint read_checkpoint(const std::filesystem::path &directory, const std::string &identity);
+// Whether the directory has a checkpoint.json that no run has left.
+bool has_foreign_checkpoint(const std::filesystem::path &directory);
 void remove_checkpoint(const std::filesystem::path &directory);
 
 } // namespace capsule

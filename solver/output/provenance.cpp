@@ -1,5 +1,6 @@
 #include "output/provenance.hpp"
 #include "base/build_info.hpp"
+#include "base/digest.hpp"
 #include "base/json_file.hpp"
 #include "case/identity.hpp"
 #include "output/checkpoint.hpp"
@@ -42,7 +43,8 @@ std::string entry_of(const fs::path &directory, const char *entry) {
 
 } // namespace
 
-std::string provenance_text(const Case &physics, const Effort &effort, const Task &task) {
+std::string provenance_text(const Case &physics, const Effort &effort, const Task &task,
+                            const FileContents &files) {
   Json json;
   json["identity"] = run_identity(physics, task);
   json["task"] = task.name;
@@ -60,6 +62,8 @@ std::string provenance_text(const Case &physics, const Effort &effort, const Tas
   json["processor"] = processor_name();
   json["started"] = effort.started;
   json["finished"] = now_utc();
+  for (const auto &[name, content] : files)
+    json["files"][name] = digest(content);
   return json.dump(2) + "\n";
 }
 
@@ -70,6 +74,17 @@ std::string identity_of(const fs::path &directory) {
 std::string task_of(const fs::path &directory) {
   const std::string task = entry_of(directory, "task");
   return task.empty() ? Task{}.name : task;
+}
+
+Written written_in(const fs::path &directory) {
+  try {
+    const auto json = read_json(directory / "run.json");
+    if (!json || !json->contains("identity"))
+      return {};
+    return {true, json->value("files", std::map<std::string, std::string>{})};
+  } catch (const std::exception &) { // it cannot be read, or is damaged
+    return {};
+  }
 }
 
 } // namespace capsule

@@ -1,5 +1,6 @@
 #include "output/results.hpp"
 #include "base/atomic_file.hpp"
+#include "base/digest.hpp"
 #include "base/failure.hpp"
 #include "case/case_file.hpp"
 #include "case/identity.hpp"
@@ -11,18 +12,40 @@
 #include "output/summary.hpp"
 #include "output/tables.hpp"
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <iterator>
+#include <string_view>
 
 namespace capsule {
 namespace {
 
 namespace fs = std::filesystem;
 
+bool is_surface(const std::string &name) {
+  constexpr std::string_view begin = "membrane_", end = ".vtp";
+  return name.size() > begin.size() + end.size() && name.starts_with(begin) && name.ends_with(end) &&
+         name.find_first_not_of("0123456789", begin.size()) == name.size() - end.size();
+}
+
+// Names that a run may give to its files.
 bool is_result(const fs::path &file) {
+  constexpr std::array names{"summary.json",  "series.csv", "series_physical.csv", "profiles.csv",
+                             "resolved.toml", "run.json",   "membrane.pvd",        "branch.csv"};
   const std::string name = file.filename().string();
-  return name == "summary.json" || name == "series.csv" || name == "series_physical.csv" ||
-         name == "profiles.csv" || name == "resolved.toml" || name == "run.json" || name == "membrane.pvd" ||
-         name == "branch.csv" || (name.starts_with("membrane_") && name.ends_with(".vtp"));
+  return std::ranges::find(names, name) != names.end() || is_surface(name);
+}
+
+// The files that the run in a directory has left there.
+std::vector<fs::path> files_of_run(const fs::path &directory) {
+  const Written written = written_in(directory);
+  if (!written.by_a_run)
+    return {};
+  return files_in(directory, [&](const fs::path &file) {
+    const std::string name = file.filename().string();
+    return written.digests.empty() ? is_result(file) : name == "run.json" || written.digests.contains(name);
+  });
 }
 
 // A temporary file that a killed process has left of a run's files. Any other may be what another process is writing.
@@ -54,18 +77,22 @@ std::string what_differs(const Case &first, const Case &second) {
 void write_results(const fs::path &directory, const Case &physics, const Outcome &outcome,
                    const Effort &effort, const Task &task) {
   const std::vector<Profile> &profiles = outcome.last.profiles;
-  write_atomically(directory / "series.csv", series_csv(outcome.last.series));
+  FileContents files{{"series.csv", series_csv(outcome.last.series)}};
   if (in_physical_units(physics, outcome))
-    write_atomically(directory / "series_physical.csv", physical_series_csv(physics, outcome.last.series));
-  write_atomically(directory / "profiles.csv", profiles_csv(profiles));
+    files.emplace_back("series_physical.csv", physical_series_csv(physics, outcome.last.series));
+  files.emplace_back("profiles.csv", profiles_csv(profiles));
   if (!outcome.along.empty())
-    write_atomically(directory / "branch.csv", branch_csv(outcome));
+    files.emplace_back("branch.csv", branch_csv(outcome));
   for (std::size_t i = 0; i < profiles.size(); ++i)
-    write_atomically(directory / surface_name(i), surface_vtp(profiles[i], outcome.along));
-  write_atomically(directory / "membrane.pvd", surfaces_pvd(profiles, outcome.along));
-  write_atomically(directory / "resolved.toml", resolved_toml(physics));
-  write_atomically(directory / "run.json", provenance_text(physics, effort, task));
-  write_atomically(directory / "summary.json", summary_text(physics, outcome, effort));
+    files.emplace_back(surface_name(i), surface_vtp(profiles[i], outcome.along));
+  files.emplace_back("membrane.pvd", surfaces_pvd(profiles, outcome.along));
+  files.emplace_back("resolved.toml", resolved_toml(physics));
+  files.emplace_back("summary.json", summary_text(physics, outcome, effort));
+  remove_results(directory);
+  require_free(directory);
+  write_atomically(directory / "run.json", provenance_text(physics, effort, task, files));
+  for (const auto &[name, content] : files)
+    write_atomically(directory / name, content);
   remove_checkpoint(directory);
 }
 
@@ -89,11 +116,10 @@ bool is_finished_input(const fs::path &directory, const Case &physics, const Tas
 std::string other_results(const fs::path &directory, const Case &physics, const Task &task) {
   std::error_code ignored;
   try {
-    if (!fs::exists(directory / "summary.json", ignored))
-      return fs::exists(directory / "checkpoint.json", ignored) &&
-                     !read_checkpoint(directory, run_identity(physics, task))
-                 ? "an interrupted run"
-                 : "";
+    if (!fs::exists(directory / "summary.json", ignored)) {
+      const FoundCheckpoint found = read_checkpoint(directory, run_identity(physics, task));
+      return found.of_another_run ? "an interrupted run" : "";
+    }
     if (const std::string made_by = task_of(directory); made_by != task.name)
       return fmt::format("the results of `capsule {}`", made_by);
     const Case other = input_of(directory, task);
@@ -103,23 +129,73 @@ std::string other_results(const fs::path &directory, const Case &physics, const 
   }
 }
 
+void require_free(const fs::path &directory) {
+  std::error_code ignored;
+  if (!fs::exists(directory, ignored))
+    return;
+  const std::vector<fs::path> own = files_of_run(directory);
+  std::vector<std::string> taken;
+  for (const fs::path &file : files_in(directory, is_result))
+    if (std::ranges::find(own, file) == own.end())
+      taken.push_back(file.filename().string());
+  if (has_foreign_checkpoint(directory))
+    taken.emplace_back("checkpoint.json");
+  if (taken.empty())
+    return;
+  std::ranges::sort(taken);
+  throw FileError(fmt::format(
+      "cannot write into '{}': {} {} not of a run; move {} away, or give another --out", directory.string(),
+      fmt::join(taken, ", "), taken.size() == 1 ? "is" : "are", taken.size() == 1 ? "it" : "them"));
+}
+
+std::vector<fs::path> set_aside_altered(const fs::path &directory) {
+  std::vector<fs::path> altered;
+  for (const auto &[name, written] : written_in(directory).digests) {
+    const fs::path file = directory / name;
+    std::error_code ec;
+    if (!fs::exists(file, ec) || digest(read_file(file)) == written)
+      continue;
+    fs::path aside = file;
+    for (int k = 1; fs::exists(fs::symlink_status(aside, ec)); ++k)
+      aside = fmt::format("{}.altered{}", file.string(), k == 1 ? "" : fmt::format("-{}", k));
+    fs::rename(file, aside, ec);
+    if (ec)
+      fail_at("cannot rename", file, ec.value());
+    altered.push_back(aside);
+  }
+  return altered;
+}
+
+bool is_complete(const fs::path &directory) {
+  return std::ranges::all_of(written_in(directory).digests, [&](const auto &file) {
+    std::error_code ignored;
+    return fs::exists(directory / file.first, ignored);
+  });
+}
+
 void remove_results(const fs::path &directory) {
-  remove_file(directory / "summary.json");
-  for (const fs::path &file :
-       files_in(directory, [](const fs::path &f) { return is_result(f) || is_left_over(f); }))
+  std::vector<fs::path> files = files_of_run(directory);
+  std::ranges::move(files_in(directory, is_left_over), std::back_inserter(files));
+  std::ranges::stable_sort(files, {}, [](const fs::path &file) {
+    return file.filename() == "summary.json" ? 0 : file.filename() == "run.json" ? 2 : 1;
+  });
+  for (const fs::path &file : files)
     remove_file(file);
 }
 
 void share_results(const fs::path &from, const fs::path &to) {
   std::error_code ignored;
-  if (fs::equivalent(from / "summary.json", to / "summary.json", ignored))
+  if (fs::exists(to / "summary.json", ignored) && fs::exists(to / "run.json", ignored) && is_complete(to) &&
+      read_file(from / "run.json") == read_file(to / "run.json"))
     return;
   make_directories(to);
   remove_results(to);
-  for (const fs::path &file : files_in(from, is_result))
-    if (file.filename() != "summary.json")
-      share_file(file, to / file.filename());
-  share_file(from / "summary.json", to / "summary.json");
+  std::vector<fs::path> files = files_of_run(from);
+  std::ranges::stable_sort(files, {}, [](const fs::path &file) {
+    return file.filename() == "run.json" ? 0 : file.filename() == "summary.json" ? 2 : 1;
+  });
+  for (const fs::path &file : files)
+    copy_atomically(file, to / file.filename());
 }
 
 } // namespace capsule

@@ -7,12 +7,13 @@
 //   membrane.pvd, membrane_0000.vtp ...   the profiles as surfaces of revolution, for ParaView
 //   resolved.toml  the complete input, itself a case file
 //   branch.csv     of a branch of steady states: one row per point, its first column the key that varies
-//   run.json       provenance, and the identity by which a finished run is found again
+//   run.json       provenance, the identity by which a finished run is found again, and the digest of each file
 //   checkpoint.json   while the run is not finished
 // Every function throws FileError with the path and the system's reason.
 #include "case/task.hpp"
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace capsule {
 
@@ -20,7 +21,8 @@ struct Case;
 struct Effort;
 struct Outcome;
 
-// All files of a finished run, summary.json last; then the checkpoint goes.
+// All files of a finished run in place of those of another one: run.json first, which names them, summary.json last; then
+// the checkpoint goes.
 void write_results(const std::filesystem::path &directory, const Case &physics, const Outcome &outcome,
                    const Effort &effort, const Task &task = {});
 
@@ -32,9 +34,18 @@ bool is_finished_input(const std::filesystem::path &directory, const Case &physi
 // steady`", "a run with flow.viscosity_ratio = 1", "an interrupted run"; empty if there are none. Throws nothing.
 std::string other_results(const std::filesystem::path &directory, const Case &physics, const Task &task = {});
 
+// Throws FileError if there is a file that is not of a run, but where a run's file would come. So what the program has not
+// written is neither overwritten nor removed.
+void require_free(const std::filesystem::path &directory);
+// Gives files of a run that were altered since they were written another name, "series.csv.altered", and returns their
+// paths.
+std::vector<std::filesystem::path> set_aside_altered(const std::filesystem::path &directory);
+// Whether all files are there that a run has left; of those of earlier versions it is not known.
+bool is_complete(const std::filesystem::path &directory);
+
 // Removes the results of whatever run the directory holds, the summary first, and what a killed process has left.
 void remove_results(const std::filesystem::path &directory);
-// Puts the results of one directory into another, too, by hard links where the file system has them.
+// Copies the results of one directory into another, in place of others; not if they are there.
 void share_results(const std::filesystem::path &from, const std::filesystem::path &to);
 
 } // namespace capsule

@@ -8,6 +8,7 @@
 #include "observe/quantities.hpp"
 #include "output/checkpoint.hpp"
 #include "output/results.hpp"
+#include "program/exit_code.hpp"
 #include "program/progress.hpp"
 #include "program/workers.hpp"
 #include <algorithm>
@@ -17,9 +18,8 @@
 #include <exception>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <fstream>
 #include <new>
-#include <sstream>
+#include <system_error>
 #include <thread>
 
 namespace capsule {
@@ -122,6 +122,7 @@ struct CaseRuns {
   ProgressLine line;
   SharedState shared;
   std::vector<RunResult> results;
+  std::vector<std::exception_ptr> lost; // what runs threw that have no result
 
   CaseRuns(const CaseInput &input_, const RunOptions &options_, const Method &method_)
       : input(input_), options(options_), method(method_), line(options_.on_a_terminal),
@@ -150,14 +151,25 @@ struct CaseRuns {
       line.print(fmt::format("{}: replaces {}", place.string(), other));
   }
 
+  // Tells of files that were altered since a run has written them; they keep another name. Whether there are any.
+  bool set_aside(const fs::path &directory) {
+    const std::vector<fs::path> altered = set_aside_altered(directory);
+    for (const fs::path &file : altered)
+      line.warn(fmt::format("{}: altered since it was computed, and kept under this name\n", file.string()));
+    return !altered.empty();
+  }
+
   RunEnd compute_in(const fs::path &home, std::size_t index) {
     const RunInput &run = input.runs[index];
     const std::string identity = run_identity(run.physics, options.task);
     if (options.fresh)
       remove_checkpoint(home);
-    const auto saved = read_checkpoint(home, identity);
-    SavedRun latest = saved.value_or(SavedRun{});
-    if (!saved)
+    const FoundCheckpoint found_there = read_checkpoint(home, identity);
+    if (!found_there.damage.empty())
+      line.warn(fmt::format("{}: the checkpoint in '{}' is damaged ({}): the run begins again\n",
+                            name_of(run, input), home.string(), found_there.damage));
+    SavedRun latest = found_there.run.value_or(SavedRun{});
+    if (!found_there.run)
       latest.effort.started = fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::now()));
     remove_results(home);
 
@@ -187,9 +199,8 @@ struct CaseRuns {
         return method(run.physics, from, control);
       } catch (const std::bad_alloc &) {
         throw std::runtime_error(
-            fmt::format("{}: not enough memory; try fewer elements (mesh.membrane, mesh.wall) or "
-                        "a looser accuracy",
-                        name_of(run, input)));
+            "not enough memory; try fewer elements (mesh.membrane, mesh.wall) or a looser "
+            "accuracy");
       }
     }();
     if (outcome.status == Status::interrupted) {
@@ -207,20 +218,26 @@ struct CaseRuns {
     const DirectoryLock lock(home);
     if (!wait_for(lock, run))
       return interrupted;
-    const bool there = !options.fresh && is_there(run, options);
-    if (!there && home == results[index].directory)
+    const fs::path &place = results[index].directory;
+    require_free(home);
+    require_free(place);
+    const bool altered = set_aside(home);
+    const bool whole = !altered && (options.pool.empty() || is_complete(home));
+    const bool there = !options.fresh && whole && is_there(run, options);
+    if (!there && home == place)
       announce_replacement(run, home);
     const RunEnd end = there ? found : compute_in(home, index);
     if (there)
       remove_checkpoint(home); // of a process that was killed when it was nearly done
-    if (end == interrupted || home == results[index].directory)
+    if (end == interrupted || home == place)
       return end;
-    make_directories(results[index].directory);
-    const DirectoryLock place(results[index].directory);
-    if (!wait_for(place, run))
+    make_directories(place);
+    const DirectoryLock place_lock(place);
+    if (!wait_for(place_lock, run))
       return interrupted;
-    announce_replacement(run, results[index].directory);
-    share_results(home, results[index].directory);
+    set_aside(place);
+    announce_replacement(run, place);
+    share_results(home, place);
     return end;
   }
 
@@ -235,24 +252,68 @@ struct CaseRuns {
     line.finish(input.runs[index].name);
     if (end == interrupted)
       return;
-    results[index].summary = read_summary(home_of(input.runs[index], options));
+    Summary summary = read_summary(home_of(input.runs[index], options));
     if (!is_there(input.runs[index], options)) // then the summary may be another run's, too
       throw FileError(fmt::format("another process has overwritten '{}'; give each its own --out",
                                   results[index].directory.string()));
+    results[index].summary = std::move(summary);
     line.print(report(results[index], name_of(input.runs[index], input), end));
   }
 
+  // A run that fails, but for its numerics, is told of by its name and stops no other.
+  void lose(std::size_t index, const std::exception_ptr &failure) {
+    line.finish(input.runs[index].name);
+    lost.push_back(failure);
+    if (input.runs.size() == 1)
+      return; // nothing more is to be said than will be thrown
+    try {
+      std::rethrow_exception(failure);
+    } catch (const InputError &error) { // its text is complete
+      line.warn(fmt::format("{}:\n{}", input.runs[index].name, error.what()));
+    } catch (const std::exception &error) {
+      line.warn(fmt::format("error: {}: {}\n", input.runs[index].name, error.what()));
+    }
+  }
+
+  // The gravest failure, by its exit code: what the machine refused before the numerics before input.
+  void throw_if_lost() const {
+    const auto thrown = [](const std::exception_ptr &failure) {
+      try {
+        std::rethrow_exception(failure);
+      } catch (const InputError &) {
+        return ExitCode::bad_input;
+      } catch (const FileError &) {
+        return ExitCode::files_failed;
+      } catch (const std::system_error &) {
+        return ExitCode::files_failed;
+      } catch (...) {
+        return ExitCode::numerics_failed;
+      }
+    };
+    const auto gravest = std::ranges::max_element(lost, {}, thrown);
+    if (gravest == lost.end())
+      return;
+    if (input.runs.size() == 1)
+      std::rethrow_exception(*gravest);
+    const std::string text =
+        fmt::format("{} of {} could not be computed", lost.size(), counted(input.runs.size(), "run"));
+    switch (thrown(*gravest)) {
+    case ExitCode::bad_input:
+      throw InputError(fmt::format("error: {}\n", text));
+    case ExitCode::files_failed:
+      throw FileError(text + "; the same command computes what is missing");
+    default:
+      throw std::runtime_error(text);
+    }
+  }
+
   void one_after_the_other() {
-    std::exception_ptr bad_input;
     for (std::size_t i = 0; i < results.size() && !stops(); ++i)
       try {
         finish(i, compute_run(i));
-      } catch (const InputError &) { // of this run alone
-        if (!bad_input)
-          bad_input = std::current_exception();
+      } catch (const std::exception &) {
+        lose(i, std::current_exception());
       }
-    if (bad_input)
-      std::rethrow_exception(bad_input);
   }
 
   void side_by_side() {
@@ -265,32 +326,34 @@ struct CaseRuns {
         shared.stop();
       show_progress();
     };
-    const auto finished = [&](std::size_t index, int end) { finish(index, static_cast<RunEnd>(end)); };
-    run_in_processes({results.size(), options.jobs, task, watch, finished}, shared);
+    const auto failed = [&](std::size_t index, const std::exception_ptr &failure) { lose(index, failure); };
+    const auto finished = [&](std::size_t index, int end) {
+      try {
+        finish(index, static_cast<RunEnd>(end));
+      } catch (const std::exception &) {
+        lose(index, std::current_exception());
+      }
+    };
+    run_in_processes({results.size(), options.jobs, task, watch, finished, failed}, shared);
+  }
+
+  void compute_all() {
+    if (options.jobs > 1 && input.runs.size() > 1)
+      side_by_side();
+    else
+      one_after_the_other();
+    const auto unfinished = std::ranges::count_if(results, [](const RunResult &r) { return !r.summary; });
+    if (unfinished ==
+        std::ssize(lost)) // otherwise some are interrupted, and the same command is to be given anyway
+      throw_if_lost();
   }
 };
 
 } // namespace
 
-void write_run_list(const CaseInput &input, const RunOptions &options) {
-  std::string text;
-  for (const RunInput &run : input.runs)
-    text += (run.name.empty() ? "." : run.name) + "\n";
-  const fs::path file = options.directory / "runs.txt";
-  std::ostringstream present;
-  present << std::ifstream(file).rdbuf();
-  if (present.str() == text) // then it need not be a place where files can be written
-    return;
-  make_directories(options.directory);
-  write_atomically(file, text);
-}
-
 std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options, const Method &method) {
   CaseRuns runs(input, options, method);
-  if (options.jobs > 1 && input.runs.size() > 1)
-    runs.side_by_side();
-  else
-    runs.one_after_the_other();
+  runs.compute_all();
   return runs.results;
 }
 
@@ -306,7 +369,7 @@ RunState state_of(const RunInput &run, const RunOptions &options) {
     const std::string ending = summary.status + (summary.failure.empty() ? "" : ": " + summary.failure);
     return {true, ending, 1, summary.quantities.at("cpu_seconds")};
   }
-  const auto saved = read_checkpoint(home, identity);
+  const auto saved = read_checkpoint(home, identity).run;
   if (!saved)
     return {};
   const std::vector<SeriesRow> &series = saved->checkpoint.series;

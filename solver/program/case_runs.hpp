@@ -28,12 +28,9 @@ struct RunOptions {
   std::function<bool()> stop = [] { return false; }; // asked after each step
 };
 
-// directory/runs.txt: the directories of all runs, in the case's order and relative to that one; "." is a run
-// without a name. Throws FileError.
-void write_run_list(const CaseInput &input, const RunOptions &options);
-
-// All runs, in the case's order. Waits for runs that another process is computing. Throws FileError; also an InputError
-// of one run, once the others have been computed.
+// All runs, in the case's order. Waits for runs that another process is computing. A run that cannot be computed stops no
+// other: once they have ended it is thrown, FileError before std::runtime_error (memory) before InputError, unless some
+// were interrupted.
 std::vector<RunResult> compute(const CaseInput &input, const RunOptions &options, const Method &method);
 
 // What messages call a run: its name, or the case's where it has none.

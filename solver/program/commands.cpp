@@ -1,5 +1,6 @@
 #include "program/commands.hpp"
 #include "base/atomic_file.hpp"
+#include "base/digest.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/identity.hpp"
@@ -10,9 +11,9 @@
 #include "compare/comparison.hpp"
 #include "compare/ledger.hpp"
 #include "motion/motion.hpp"
-#include "output/provenance.hpp"
 #include "output/tables.hpp"
 #include "program/progress.hpp"
+#include "program/run_list.hpp"
 #include "scene/cost.hpp"
 #include "steady/branch.hpp"
 #include "steady/steady_state.hpp"
@@ -65,16 +66,22 @@ struct Computation {
   Method method = march;
 };
 
-// results/<case> for marches, results/<case>/steady and results/<case>/branch for steady states.
-fs::path usual_place(const fs::path &results, const CaseInput &input, const Task &task) {
+// results/<case> for marches, results/<case>/steady and results/<case>/branch for steady states. `taken`: the pool's place.
+fs::path usual_place(const fs::path &results, const fs::path &taken, const CaseInput &input,
+                     const Task &task) {
+  if (results / input.name == taken)
+    throw InputError(
+        fmt::format("error: '{}' holds the runs of all cases: call the case '{}' otherwise, or give --out\n",
+                    taken.string(), input.name));
   return task.motion ? results / input.name : results / input.name / task.name.substr(0, task.name.find(' '));
 }
 
 RunOptions run_options(const Arguments &arguments, const CaseInput &input, const Task &task = {}) {
-  const fs::path results = "results";
+  const fs::path results = "results", pool = results / "runs";
   RunOptions options;
-  options.directory = arguments.out.empty() ? usual_place(results, input, task) : fs::path(arguments.out);
-  options.pool = arguments.out.empty() ? results / "runs" : fs::path();
+  options.directory =
+      arguments.out.empty() ? usual_place(results, pool, input, task) : fs::path(arguments.out);
+  options.pool = arguments.out.empty() ? pool : fs::path();
   options.task = task;
   options.jobs = arguments.jobs;
   options.fresh = arguments.fresh;
@@ -183,7 +190,7 @@ ExitCode compute_runs(const CaseInput &whole, const Arguments &arguments, const 
   if (arguments.list)
     return list_runs(whole, options);
   const CaseInput input = arguments.only > 0 ? one_run_of(whole, arguments.only) : whole;
-  write_run_list(whole, options);
+  write_run_list(whole, options.directory);
   const std::vector<RunResult> results = compute_case(input, arguments, computation);
   if (const std::string remark = computation.task.motion ? unsteady_remark(results) : ""; !remark.empty())
     fmt::print(stderr, "{}: {}\n", whole.name, remark);
@@ -214,7 +221,8 @@ ExitCode find_steady_states(const Arguments &arguments) {
   Task task{.motion = false, .name = "steady"};
   if (!arguments.from.empty()) {
     from = read_last_profile(arguments.from);
-    task.name += fmt::format(" --from {} {}", arguments.from, identity_of(arguments.from));
+    task.name += fmt::format(" --from {} {}", arguments.from,
+                             digest(read_file(fs::path(arguments.from) / "profiles.csv")));
   }
   const Method method = [&](const Case &physics, const Checkpoint & /*none is saved*/,
                             const Control &control) { return steady(physics, from, control); };
@@ -242,7 +250,7 @@ ExitCode check_case(const Arguments &arguments) {
   if (published)
     std::ranges::move(expectations_of(read_expectations(*published), input.name),
                       std::back_inserter(expectations));
-  write_run_list(input, run_options(arguments, input));
+  write_run_list(input, run_options(arguments, input).directory);
   const std::vector<RunResult> results = compute_case(input, arguments);
   if (std::ranges::any_of(results, is_interrupted))
     return ExitCode::interrupted;

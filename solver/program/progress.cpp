@@ -58,6 +58,11 @@ void ProgressLine::print(const std::string &line) {
   std::fflush(stdout);
 }
 
+void ProgressLine::warn(const std::string &lines) {
+  clear();
+  fmt::print(stderr, "{}", lines);
+}
+
 void ProgressLine::clear() {
   if (on_screen)
     fmt::print(stderr, "\r\033[K");

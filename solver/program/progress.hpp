@@ -23,6 +23,8 @@ public:
   void finish(const std::string &run);
   // Prints a line that stays, on standard output.
   void print(const std::string &line);
+  // Prints lines that stay, with their ends, on standard error.
+  void warn(const std::string &lines);
 
 private:
   using Clock = std::chrono::steady_clock;

@@ -11,10 +11,11 @@
 #include <map>
 #include <memory>
 #include <new>
-#include <optional>
+#include <string>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -43,6 +44,9 @@ void keep_text(const char *text, char (&place)[1000]) {
     } catch (const FileError &error) {
       keep_text(error.what(), progress.error);
       return ExitCode::files_failed;
+    } catch (const std::system_error &error) { // of files or of standard output
+      keep_text(error.what(), progress.error);
+      return ExitCode::files_failed;
     } catch (const std::exception &error) {
       keep_text(error.what(), progress.error);
       return ExitCode::numerics_failed;
@@ -52,25 +56,29 @@ void keep_text(const char *text, char (&place)[1000]) {
   _exit(static_cast<int>(code));
 }
 
+std::exception_ptr file_error(const std::string &text) {
+  return std::make_exception_ptr(FileError(text));
+}
+
+std::string signal_text(int signal) {
+  return fmt::format("its process was ended by signal {} ({}){}", signal, strsignal(signal),
+                     signal == SIGKILL ? ", as it may be where memory is short; try fewer --jobs" : "");
+}
+
 // What a child's end, as `waitpid` tells it, means for its parent: nothing if it is done.
 std::exception_ptr failure_of(int status, const char *error) {
   if (WIFSIGNALED(status))
-    return std::make_exception_ptr(std::runtime_error(fmt::format(
-        "a run's process was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))));
+    return file_error(signal_text(WTERMSIG(status)));
   switch (static_cast<ExitCode>(WEXITSTATUS(status))) {
   case ExitCode::done:
     return nullptr;
   case ExitCode::bad_input:
     return std::make_exception_ptr(InputError(error));
   case ExitCode::files_failed:
-    return std::make_exception_ptr(FileError(error));
+    return file_error(error);
   default:
     return std::make_exception_ptr(std::runtime_error(error));
   }
-}
-
-bool is_bad_input(int status) {
-  return WIFEXITED(status) && static_cast<ExitCode>(WEXITSTATUS(status)) == ExitCode::bad_input;
 }
 
 } // namespace
@@ -93,14 +101,7 @@ void run_in_processes(const Work &work, SharedState &shared) {
   std::signal(SIGCHLD, SIG_DFL);
   const pid_t parent = getpid();
   std::map<pid_t, std::size_t> children;
-  std::exception_ptr first_failure;
   std::size_t next = 0;
-  const auto fail = [&](std::exception_ptr failure, bool of_this_task_alone = false) {
-    if (!first_failure)
-      first_failure = std::move(failure);
-    if (!of_this_task_alone)
-      shared.stop();
-  };
   while (!children.empty() || (next < work.tasks && !shared.stops())) {
     if (children.size() < work.jobs && next < work.tasks && !shared.stops()) {
       std::fflush(stdout);
@@ -109,33 +110,31 @@ void run_in_processes(const Work &work, SharedState &shared) {
         work_on(next, work, shared, parent);
       if (child > 0)
         children[child] = next++;
-      else
-        fail(std::make_exception_ptr(
-            std::runtime_error(fmt::format("cannot start a process: {}", std::strerror(errno)))));
-      continue;
+      else if (children.empty()) // otherwise there may be room when one of them has ended
+        work.failed(next++, file_error(fmt::format("cannot start a process: {}", std::strerror(errno))));
+      if (child > 0 || children.empty())
+        continue;
     }
     work.watch();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     for (auto child = children.begin(); child != children.end();) {
+      const auto [process, task] = *child;
       int status = 0;
-      const pid_t ended = waitpid(child->first, &status, WNOHANG);
+      const pid_t ended = waitpid(process, &status, WNOHANG);
       if (ended == 0 || (ended < 0 && errno == EINTR)) {
         ++child;
         continue;
       }
-      const Progress &progress = shared.progress(child->second);
-      if (ended < 0)
-        fail(std::make_exception_ptr(
-            std::runtime_error(fmt::format("a run's process is lost: {}", std::strerror(errno)))));
-      else if (auto failure = failure_of(status, progress.error))
-        fail(std::move(failure), is_bad_input(status));
-      else
-        work.finished(child->second, progress.result);
       child = children.erase(child);
+      const Progress &progress = shared.progress(task);
+      if (ended < 0)
+        work.failed(task, file_error(fmt::format("its process is lost: {}", std::strerror(errno))));
+      else if (const auto failure = failure_of(status, progress.error))
+        work.failed(task, failure);
+      else
+        work.finished(task, progress.result);
     }
   }
-  if (first_failure)
-    std::rethrow_exception(first_failure);
 }
 
 } // namespace capsule

@@ -3,6 +3,7 @@
 // space in global memory: two threads in it spoil each other's numbers without a sign.
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <functional>
 
 namespace capsule {
@@ -42,11 +43,13 @@ struct Work {
   std::function<int(std::size_t)> task;           // called in a child process
   std::function<void()> watch;                    // called here, some times per second
   std::function<void(std::size_t, int)> finished; // called here with the task's result
+  // Called here with what the task threw: InputError, FileError, or std::runtime_error for anything else. A task whose
+  // process was ended by a signal or could not be started has thrown a FileError.
+  std::function<void(std::size_t, const std::exception_ptr &)> failed;
 };
 
-// Starts all tasks in order, until they are asked to stop. If one throws a FileError or anything else, or is ended by a
-// signal, the others are asked to stop, and the same is thrown here once they have. An InputError stops no other task and
-// is thrown at the end.
+// Starts all tasks in order, until they are asked to stop. A task that fails stops no other. Throws what the callbacks
+// throw.
 void run_in_processes(const Work &work, SharedState &shared);
 
 } // namespace capsule

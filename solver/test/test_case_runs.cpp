@@ -2,12 +2,17 @@
 #include "base/failure.hpp"
 #include "case/identity.hpp"
 #include "program/case_runs.hpp"
+#include "program/run_list.hpp"
 #include "temporary_directory.hpp"
+#include <array>
 #include <atomic>
 #include <boost/test/unit_test.hpp>
 #include <csignal>
 #include <fcntl.h>
+#include <functional>
+#include <new>
 #include <sys/file.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -146,7 +151,7 @@ BOOST_AUTO_TEST_CASE(finished_runs_are_used_again) {
   compute(case_with({1, 5}), options, counted.method);
   BOOST_TEST(counted.calls == 2);
   // A process that is killed when only its checkpoint is left to remove has finished.
-  const auto checkpoint = directory.write("a/viscosity_ratio=1/checkpoint.json", "{}");
+  const auto checkpoint = directory.write("a/viscosity_ratio=1/checkpoint.json", "{\"identity\":");
   compute(case_with({1, 5}), options, counted.method);
   BOOST_TEST(counted.calls == 2);
   BOOST_TEST(!fs::exists(checkpoint));
@@ -172,7 +177,7 @@ BOOST_AUTO_TEST_CASE(runs_of_another_program_count_only_where_the_user_says) {
   compute(input, pooled, counted.method);
   BOOST_TEST(counted.calls == 2);
   directory.write("a/run.json", "{\"identity\": \"of another program\"}");
-  directory.write("runs/" + run_identity(input.runs[0].physics) + "/run.json", "{}");
+  directory.write("runs/" + run_identity(input.runs[0].physics) + "/run.json", "{\"identity\": \"other\"}");
   compute(input, named, counted.method);
   BOOST_TEST(counted.calls == 2);
   compute(input, pooled, counted.method);
@@ -182,7 +187,7 @@ BOOST_AUTO_TEST_CASE(runs_of_another_program_count_only_where_the_user_says) {
 BOOST_AUTO_TEST_CASE(a_fresh_start_forgets_the_checkpoint) {
   const TemporaryDirectory directory;
   RunOptions options{.directory = directory.path, .fresh = true};
-  const auto checkpoint = directory.write("checkpoint.json", "damaged");
+  const auto checkpoint = directory.write("checkpoint.json", "{\"identity\": damaged");
   bool there = true;
   const Method method = [&](const Case &physics, const Checkpoint &from, const Control &control) {
     there = fs::exists(checkpoint);
@@ -201,9 +206,10 @@ BOOST_AUTO_TEST_CASE(bad_input_of_one_run_stops_no_other) {
   };
   for (const unsigned jobs : {1u, 2u}) {
     const RunOptions options{.directory = directory.path / std::to_string(jobs), .jobs = jobs};
-    BOOST_CHECK_EXCEPTION(
-        compute(case_with({1, 2, 3, 4}), options, method), InputError,
-        [](const InputError &error) { return std::string(error.what()) == "not this one"; });
+    BOOST_CHECK_EXCEPTION(compute(case_with({1, 2, 3, 4}), options, method), InputError,
+                          [](const InputError &error) {
+                            return std::string(error.what()) == "error: 1 of 4 runs could not be computed\n";
+                          });
     for (const char *other : {"2", "3", "4"})
       BOOST_TEST(fs::exists(options.directory / (std::string("viscosity_ratio=") + other) / "summary.json"));
   }
@@ -232,13 +238,10 @@ BOOST_AUTO_TEST_CASE(cases_share_their_runs) {
 
 BOOST_AUTO_TEST_CASE(the_list_of_runs_is_that_of_the_case) {
   const TemporaryDirectory directory;
-  RunOptions options;
-  options.directory = directory.path / "case";
-  write_run_list(case_with({10, 5, 1}), options);
-  write_run_list(case_with({10, 5}), options);
+  write_run_list(case_with({10, 5, 1}), directory.path / "case");
+  write_run_list(case_with({10, 5}), directory.path / "case");
   BOOST_TEST(content_of(directory.path / "case/runs.txt") == "viscosity_ratio=10\nviscosity_ratio=5\n");
-  options.directory = directory.path / "single";
-  write_run_list(case_with({1}), options);
+  write_run_list(case_with({1}), directory.path / "single");
   BOOST_TEST(content_of(directory.path / "single/runs.txt") == ".\n");
 }
 
@@ -276,16 +279,48 @@ BOOST_AUTO_TEST_CASE(a_failed_run_keeps_what_was_computed_and_stops_no_other) {
 BOOST_AUTO_TEST_CASE(a_place_that_cannot_be_written) {
   const TemporaryDirectory directory;
   directory.write("file", "");
-  for (const unsigned jobs : {1u, 2u}) {
-    const RunOptions options{.directory = directory.path / "file" / "below", .jobs = jobs};
-    BOOST_CHECK_EXCEPTION(compute(case_with({1, 2}), options, chaotic_march), FileError,
-                          [&](const FileError &error) {
-                            return std::string(error.what()).find("file/below") != std::string::npos;
-                          });
-  }
+  const RunOptions options{.directory = directory.path / "file" / "below"};
+  BOOST_TEST(failure_of([&] { compute(case_with({1}), options, chaotic_march); }).find("file/below") !=
+             std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(a_run_that_ends_by_a_signal_is_told_and_the_others_are_saved) {
+// Whatever ends a run but its numerics: the others are computed, and the same command computes what is missing.
+BOOST_AUTO_TEST_CASE(a_lost_run_stops_no_other) {
+  const std::array<std::function<void()>, 4> losses{
+      [] { raise(SIGKILL); }, [] { throw FileError("no room"); }, [] { throw std::bad_alloc(); },
+      [] {
+        throw std::filesystem::filesystem_error("no room",
+                                                std::make_error_code(std::errc::no_space_on_device));
+      }};
+  for (std::size_t k = 0; k < losses.size(); ++k)
+    for (const unsigned jobs : {1u, 2u}) {
+      if (k == 0 && jobs == 1)
+        continue; // this process itself
+      const TemporaryDirectory directory;
+      const Method method = [&](const Case &physics, const Checkpoint &from, const Control &control) {
+        if (physics.flow.viscosity_ratio == 2)
+          losses.at(k)();
+        return chaotic_march(physics, from, control);
+      };
+      const RunOptions options{.directory = directory.path, .jobs = jobs};
+      if (k == 2)
+        BOOST_CHECK_EXCEPTION(compute(case_with({1, 2, 3, 4}), options, method), std::runtime_error,
+                              [](const std::runtime_error &error) {
+                                return std::string(error.what()) == "1 of 4 runs could not be computed";
+                              });
+      else
+        BOOST_TEST(failure_of([&] {
+                     compute(case_with({1, 2, 3, 4}), options, method);
+                   }) == "1 of 4 runs could not be computed; the same command computes what is missing");
+      Counted counted;
+      for (const RunResult &result : compute(case_with({1, 2, 3, 4}), options, counted.method))
+        BOOST_TEST(result.summary.has_value());
+      if (jobs == 1)
+        BOOST_TEST(counted.calls == 1);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_is_lost_while_others_are_interrupted) {
   const TemporaryDirectory directory;
   const Method method = [](const Case &physics, const Checkpoint &from, const Control &control) {
     if (physics.flow.viscosity_ratio == 1)
@@ -294,13 +329,82 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_by_a_signal_is_told_and_the_others_are_save
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return Outcome{Status::interrupted, "", "", from, {}};
   };
-  const RunOptions options{.directory = directory.path, .jobs = 2};
-  BOOST_CHECK_EXCEPTION(compute(case_with({1, 2, 3}), options, method), std::runtime_error,
-                        [](const std::runtime_error &error) {
-                          return std::string(error.what()).find("signal 9") != std::string::npos;
-                        });
+  RunOptions options{.directory = directory.path, .jobs = 2};
+  const pid_t first = getpid();
+  int asked = 0;
+  options.stop = [&] { return getpid() == first && ++asked > 20; };
+  for (const RunResult &result : compute(case_with({1, 2, 3}), options, method))
+    BOOST_TEST(!result.summary);
   BOOST_TEST(fs::exists(directory.path / "viscosity_ratio=2" / "checkpoint.json"));
-  BOOST_TEST(!fs::exists(directory.path / "viscosity_ratio=3"));
+}
+
+// What lies where a run's files would come is neither overwritten nor removed.
+BOOST_AUTO_TEST_CASE(files_of_others_stay) {
+  const TemporaryDirectory directory;
+  for (const char *name :
+       {"series.csv", "run.json", "summary.json", "membrane_0007.vtp", "checkpoint.json"}) {
+    const auto file = directory.write("a/" + std::string(name), "mine");
+    const std::string failure = failure_of(
+        [&] { compute(case_with({1}), {.directory = directory.path / "a", .fresh = true}, chaotic_march); });
+    BOOST_TEST(failure.find(name) != std::string::npos);
+    BOOST_TEST(content_of(file) == "mine");
+    BOOST_TEST(entries_in(directory.path / "a") == 1u);
+    fs::remove(file);
+  }
+  const auto other = directory.write("a/membrane_smoothed.vtp", "mine"),
+             list = directory.write("a/runs.txt", "mine\n");
+  for (const double ratio : {1.0, 2.0}) {
+    compute(case_with({ratio}), {.directory = directory.path / "a"}, chaotic_march);
+    BOOST_TEST(content_of(other) == "mine");
+  }
+  BOOST_TEST(failure_of([&] {
+               write_run_list(case_with({1, 2}), directory.path / "a");
+             }).find("runs.txt") != std::string::npos);
+  BOOST_TEST(content_of(list) == "mine\n");
+}
+
+BOOST_AUTO_TEST_CASE(an_alteration_is_noticed_and_reaches_no_other_case) {
+  const TemporaryDirectory directory;
+  Counted counted;
+  const auto options = [&](const char *name) {
+    return RunOptions{.directory = directory.path / name, .pool = directory.path / "runs"};
+  };
+  compute(case_with({1}), options("a"), counted.method);
+  const auto expected = numbers_in(directory.path / "a");
+  const fs::path pooled = directory.path / "runs" / run_identity(case_with({1}).runs[0].physics);
+  std::ofstream(directory.path / "a/series.csv") << "altered in place";
+  compute(case_with({1}), options("b"), counted.method);
+  BOOST_TEST((numbers_in(directory.path / "b") == expected));
+  compute(case_with({1}), options("a"), counted.method);
+  BOOST_TEST(content_of(directory.path / "a/series.csv.altered") == "altered in place");
+  BOOST_TEST(content_of(directory.path / "a/series.csv") == content_of(pooled / "series.csv"));
+  BOOST_TEST(counted.calls == 1);
+  // In the pool, too: then the run is computed again; so it is where a file is missing.
+  std::ofstream(pooled / "series.csv") << "altered in place";
+  compute(case_with({1}), options("b"), counted.method);
+  BOOST_TEST(counted.calls == 2);
+  fs::remove(pooled / "profiles.csv");
+  compute(case_with({1}), options("b"), counted.method);
+  BOOST_TEST(counted.calls == 3);
+  BOOST_TEST((numbers_in(directory.path / "b") == expected));
+}
+
+BOOST_AUTO_TEST_CASE(a_damaged_checkpoint_is_begun_again) {
+  const TemporaryDirectory directory;
+  RunOptions options{.directory = directory.path / "a", .seconds_between_checkpoints = 0};
+  compute(case_with({1}), options, chaotic_march);
+  const auto expected = numbers_in(options.directory);
+  options.directory = directory.path / "b";
+  int steps = 0;
+  options.stop = [&] { return ++steps > 60; };
+  compute(case_with({1}), options, chaotic_march);
+  options.stop = [] { return false; };
+  std::string text = content_of(options.directory / "checkpoint.json");
+  const std::size_t at = text.find("\"position\":[") + 12;
+  text.replace(at, text.find(']', at) - at, "\"nan\"");
+  directory.write("b/checkpoint.json", text);
+  compute(case_with({1}), options, chaotic_march);
+  BOOST_TEST((numbers_in(options.directory) == expected));
 }
 
 BOOST_AUTO_TEST_CASE(a_stop_reaches_every_process) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <cstdint>
 
 using namespace capsule;
@@ -22,8 +23,9 @@ BOOST_AUTO_TEST_CASE(checkpoint_comes_back_bit_by_bit) {
   const TemporaryDirectory directory;
   const Checkpoint written = random_checkpoint();
   write_checkpoint(directory.path, "abc", {written, {"2002-01-01T00:00:00Z", 0.1, 0.3}});
-  BOOST_TEST(!read_checkpoint(directory.path, "other"));
-  const auto saved = read_checkpoint(directory.path, "abc");
+  BOOST_TEST(read_checkpoint(directory.path, "other").of_another_run);
+  BOOST_TEST(!has_foreign_checkpoint(directory.path));
+  const auto saved = read_checkpoint(directory.path, "abc").run;
   BOOST_REQUIRE(saved);
   BOOST_TEST(saved->effort.started == "2002-01-01T00:00:00Z");
   BOOST_TEST(saved->effort.cpu_seconds == 0.1);
@@ -48,13 +50,28 @@ BOOST_AUTO_TEST_CASE(checkpoint_comes_back_bit_by_bit) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(damaged_checkpoint_is_named) {
+// Each of its bytes counts.
+BOOST_AUTO_TEST_CASE(damaged_checkpoint_is_said_to_be_one) {
   const TemporaryDirectory directory;
-  BOOST_TEST(!read_checkpoint(directory.path, "abc"));
-  const auto file = directory.write("checkpoint.json", "{\"identity\": \"abc\", \"time\": ");
-  BOOST_TEST(failure_of([&] { read_checkpoint(directory.path, "abc"); }).find(file.string()) !=
-             std::string::npos);
-  directory.write("checkpoint.json", "{\"identity\": \"abc\"}");
-  BOOST_TEST(failure_of([&] { read_checkpoint(directory.path, "abc"); }).find("--fresh") !=
-             std::string::npos);
+  const FoundCheckpoint none = read_checkpoint(directory.path, "abc");
+  BOOST_TEST((!none.run && !none.of_another_run && none.damage.empty()));
+  Checkpoint checkpoint = random_checkpoint();
+  checkpoint.series.resize(1);
+  checkpoint.profiles.clear();
+  write_checkpoint(directory.path, "abc", {checkpoint, {}});
+  const std::string text = content_of(directory.path / "checkpoint.json");
+  for (std::size_t k = text.find("run"); k + 3 < text.size(); ++k) {
+    std::string damaged = text;
+    damaged[k] = damaged[k] == '1' ? '2' : '1';
+    directory.write("checkpoint.json", damaged);
+    BOOST_TEST(!read_checkpoint(directory.path, "abc").damage.empty());
+  }
+  directory.write("checkpoint.json", text.substr(0, text.size() / 2));
+  BOOST_TEST(!read_checkpoint(directory.path, "abc").damage.empty());
+  BOOST_TEST(!has_foreign_checkpoint(directory.path));
+  directory.write("checkpoint.json", "mine");
+  BOOST_TEST(has_foreign_checkpoint(directory.path));
+  checkpoint.position[3] = std::nan("");
+  write_checkpoint(directory.path, "abc", {checkpoint, {}});
+  BOOST_TEST(!read_checkpoint(directory.path, "abc").damage.empty());
 }
