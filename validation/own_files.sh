@@ -70,6 +70,9 @@ ends 0 steady first --from chosen --out steady
 grep -q 'computed before' log && fail 'another profile is taken for the same'
 
 # Names: the place of all runs is no case's; a link goes by its own name.
+echo 'id,run,quantity,expected,allowed,reason' >first/expected.csv
+ends 2 check first --table first/expected
+grep -q "'first/expected.csv' holds what is expected" log && [ -s first/expected.csv ] || fail 'a table takes the place of another'
 mkdir elsewhere
 cp -r first elsewhere/runs
 ends 2 run elsewhere/runs

@@ -15,6 +15,11 @@ struct Recycled {
   std::vector<Vector> positions, solutions; // the latest first
 };
 
+// Of a flow: of its velocity, and of the second route to the pressure drop.
+struct RecycledFlow {
+  Recycled velocity, traction;
+};
+
 // Throws if the matrix is singular.
 Matrix inverse_of(const Matrix &system);
 // The solution at a position, from the last ones along a smooth path of shapes: one at least.

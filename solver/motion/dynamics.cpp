@@ -11,24 +11,18 @@ namespace {
 constexpr Advice advice{.at_the_wall = "try a smaller accuracy or a finer mesh",
                         .at_the_end = "move pore.exit_x away"};
 
-// What the flow's iterations reuse from earlier shapes: of the velocity, and of the second route to the pressure drop.
-struct RecycledFlow {
-  Recycled velocity, traction;
-};
-
 Dynamics standard_dynamics(const Case &physics) {
   Dynamics dynamics;
   dynamics.scene = std::make_shared<const Scene>(make_scene(physics));
   const auto scene = dynamics.scene;
   const auto flow = std::make_shared<const Flow>(
       make_flow(scene->pore, physics.flow, scene->membrane.basis, choose_resolution(physics).flow));
-  const auto recycled = std::make_shared<RecycledFlow>();
+  const auto recycled = dynamics.recycled;
   const FlowType type = physics.flow.type;
   const double capillary_number = physics.flow.capillary_number;
   const auto f = [scene, capillary_number](const Vector &position) { // of flow.hpp
     return Vector(membrane_load(scene->membrane, position) / capillary_number);
   };
-  dynamics.forget = [recycled] { *recycled = {}; };
   dynamics.flow = [type, flow, scene, f, recycled](const Vector &position) {
     require_capsule(scene->pore, position, advice);
     return flow->solve(flow->interact(place_in_flow(type, position)), f(position), recycled->velocity);
@@ -60,7 +54,6 @@ Dynamics paper_dynamics(const Case &physics) {
     require_capsule(scene->pore, position, advice);
     return system->flow(position);
   };
-  dynamics.forget = [] {};
   dynamics.report = [flow = dynamics.flow](const Vector &position, bool /*regular*/) {
     return flow(position); // the second route is the standard preset's
   };

@@ -2,6 +2,7 @@
 // The equations of motion of a case, whichever numerics it asks for: position of the membrane's nodes ->
 // velocity.
 #include "flow/flow_state.hpp"
+#include "flow/recycled_solver.hpp"
 #include "scene/scene.hpp"
 #include <functional>
 #include <memory>
@@ -20,9 +21,9 @@ struct Dynamics {
   // Only of the standard preset: d velocity/d position with frozen hydrodynamic mobility and the exact
   // derivative of the membrane's load.
   std::function<Matrix(const Vector &position)> jacobian;
-  // Drops what earlier shapes left behind to speed up the next one, so that a march depends on its start
-  // alone.
-  std::function<void()> forget;
+  // What earlier shapes have left behind to speed up the next one. A march empties it where it begins, so that it depends
+  // on its start alone.
+  std::shared_ptr<RecycledFlow> recycled = std::make_shared<RecycledFlow>();
 };
 
 // Builds what stays fixed: reference shape, matrices, the wall's factors and the empty pore's flow.

@@ -7,6 +7,7 @@
 #include "observe/gauge.hpp"
 #include "scene/resolution.hpp"
 #include <cmath>
+#include <cstddef>
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
@@ -15,8 +16,8 @@ namespace capsule {
 namespace {
 
 constexpr int rows_in_time = 200; // of a march that ends at a time
-constexpr int steps_between_checkpoints = 250;
-constexpr int explicit_steps_between_checkpoints = 1000;
+constexpr int steps_of_a_leg = 250;
+constexpr int explicit_steps_of_a_leg = 1000;
 constexpr double shortest_leg = 1e-4; // a march that gains less time than this in one leg is given up
 
 // Integrates, records what is due, and stops.
@@ -28,9 +29,9 @@ public:
         dynamics_(make_dynamics(input)),
         gauge_(dynamics_.scene->pore, dynamics_.scene->membrane,
                input.output.resistance ? std::optional(choose_resolution(input).flow) : std::nullopt),
-        record_(from) {
+        record_(from), steps_(from.steps) {
     // Not the centre of the start's shape, whose rounding may lie on either side of a place that is asked for.
-    const double centre = started() ? gauge_.centre(record_.position) : input.capsule.start_x;
+    const double centre = record_.steps > 0 ? gauge_.centre(record_.position) : input.capsule.start_x;
     x_g_stations_ = stations(centre, row_spacing, input.until.x_g, input.output.profiles_at_x_g);
     const double end = input.until.time.value_or(std::numeric_limits<double>::infinity());
     time_stations_ = stations(record_.time, input.until.x_g ? end : end / rows_in_time, input.until.time,
@@ -43,6 +44,7 @@ public:
       if (!started()) {
         record_.position = dynamics_.scene->start;
         record(0, dynamics_.scene->start, {.value = 0, .profile = true, .regular = true, .end = false});
+        record_.leg = {};
       }
       outcome.status = input_.time.scheme == Scheme::bdf ? run_bdf() : run_explicit();
     } catch (const NumericsFailure &failure) {
@@ -52,6 +54,8 @@ public:
       outcome.message = fmt::format("{} (after t = {:.6g}, x_g = {:.6g}); {}", failure.what(), last.time,
                                     last.x_g, failure.advice);
     }
+    if (outcome.status != Status::interrupted)
+      record_.steps = steps_;
     outcome.last = record_;
     if (const auto empty = gauge_.empty_resistance())
       outcome.further["empty_resistance"] = *empty;
@@ -61,16 +65,73 @@ public:
 private:
   bool started() const { return record_.position.size() > 0; }
 
+  void begin_leg() {
+    *dynamics_.recycled = {};
+    asked_ = 0;
+    repeats_ = !record_.leg.answers.empty();
+    repeated_rows_ = record_.leg.rows;
+  }
+
+  // What the integrator asks for: while it repeats a leg what it was answered before, then what is computed.
+  template <class Compute>
+  Vector answer(const Compute &compute) {
+    std::vector<Vector> &answers = record_.leg.answers;
+    if (asked_ == answers.size()) {
+      if (repeats_)
+        *dynamics_.recycled = record_.leg.recycled;
+      repeats_ = false;
+      answers.push_back(compute());
+    }
+    return answers[asked_++];
+  }
+
+  // The same of the flow, or nothing, and why.
+  template <class Compute>
+  Vector answer_if_any(const Compute &compute) {
+    return answer([&]() -> Vector {
+      try {
+        return compute();
+      } catch (const NumericsFailure &failure) {
+        cause_.emplace(failure);
+        return {};
+      }
+    });
+  }
+
+  // While a leg is repeated only the Jacobian that is in use at its end is computed: no correction needs the others.
+  bool jacobian_at(const Vector &position, Matrix &jacobian) {
+    if (repeats_ && asked_ < record_.leg.answers.size())
+      jacobian = asked_ == record_.leg.jacobian ? dynamics_.jacobian(position)
+                                                : Matrix::Zero(position.size(), position.size());
+    const Vector found = answer_if_any([&]() -> Vector {
+      jacobian = dynamics_.jacobian(position);
+      if (!jacobian.allFinite())
+        return {};
+      record_.leg.jacobian = asked_;
+      return Vector::Ones(1);
+    });
+    return found.size() > 0;
+  }
+
+  void save() {
+    if (!repeats_)
+      record_.leg.recycled = *dynamics_.recycled;
+    if (control_.save)
+      control_.save(record_);
+  }
+
   Status run_explicit() {
-    const auto rate = [this](const Vector &position) { return dynamics_.flow(position).velocity; };
+    const auto rate = [this](const Vector &position) {
+      return answer([&] { return dynamics_.flow(position).velocity; });
+    };
     last_accepted_ = record_.position;
     for (;;) {
-      dynamics_.forget();
+      begin_leg();
       require_stable_step(record_.position);
       try {
         ExplicitIntegrator integrator(input_.time.scheme, rate, record_.time, record_.position,
                                       input_.time.step);
-        if (const auto status = run_leg(integrator, explicit_steps_between_checkpoints))
+        if (const auto status = run_leg(integrator, explicit_steps_of_a_leg))
           return *status;
       } catch (const NumericsFailure &failure) {
         require_stable_step(last_accepted_);
@@ -97,29 +158,18 @@ private:
 
   Status run_bdf() {
     const double tolerance = choose_resolution(input_).time_tolerance;
-    const Equations equations{[&](const Vector &position, Vector &rate) {
-                                try {
-                                  rate = dynamics_.flow(position).velocity;
-                                  return true;
-                                } catch (const NumericsFailure &failure) {
-                                  cause_.emplace(failure);
-                                  return false;
-                                }
-                              },
-                              [&](const Vector &position, Matrix &jacobian) {
-                                try {
-                                  jacobian = dynamics_.jacobian(position);
-                                  return jacobian.allFinite();
-                                } catch (const NumericsFailure &failure) {
-                                  cause_.emplace(failure);
-                                  return false;
-                                }
-                              }};
+    const Equations equations{
+        [&](const Vector &position, Vector &rate) {
+          rate = answer_if_any([&] { return dynamics_.flow(position).velocity; });
+          return rate.size() > 0;
+        },
+        [&](const Vector &position, Matrix &jacobian) { return jacobian_at(position, jacobian); },
+        [&](const std::function<Vector()> &solve) { return answer(solve); }};
     for (;;) {
-      dynamics_.forget();
+      begin_leg();
       try {
         BdfIntegrator integrator(equations, record_.time, record_.position, tolerance);
-        if (const auto status = run_leg(integrator, steps_between_checkpoints))
+        if (const auto status = run_leg(integrator, steps_of_a_leg))
           return *status;
       } catch (const NumericsFailure &failure) {
         if (failure.kind == "step" && cause_)
@@ -129,22 +179,26 @@ private:
     }
   }
 
-  // Steps from one checkpoint to the next. The integrator starts afresh from each, so that an interrupted march goes on
-  // just as this one does. Empty: not at the end yet.
+  // One leg of steps. The integrator starts afresh with each. Empty: not at the end yet.
   template <class Integrator>
   std::optional<Status> run_leg(Integrator &integrator, int steps) {
     for (int k = 0; k < steps; ++k) {
-      if (control_.interrupted && control_.interrupted())
+      const bool interrupted = control_.interrupted && control_.interrupted();
+      if (interrupted || (control_.wants_checkpoint && control_.wants_checkpoint()))
+        save();
+      if (interrupted)
         return Status::interrupted;
       cause_.reset();
       integrator.step();
-      ++record_.steps;
+      ++steps_;
       if (record_due(integrator))
         return Status::reached;
     }
     const double gone = integrator.time() - record_.time;
     record_.time = integrator.time();
     record_.position = integrator.state_at(integrator.time());
+    record_.steps = steps_;
+    record_.leg = {};
     SeriesRow here; // only the film is measured between rows
     here.min_film = gauge_.film(record_.position);
     throw_if_stopped({.row = here});
@@ -216,6 +270,11 @@ private:
   }
 
   void record(double time, const Vector &position, const Station &station) {
+    if (repeated_rows_ > 0) { // it is in the series
+      --repeated_rows_;
+      last_accepted_ = position;
+      return;
+    }
     // Nobody looks at the companion's second pressure drop.
     const FlowState state =
         role_ == Role::companion ? dynamics_.flow(position) : dynamics_.report(position, station.regular);
@@ -224,10 +283,11 @@ private:
     row.pressure_drop_reciprocal = state.pressure_drop_reciprocal;
     row.flow_rate = state.flow_rate;
     record_.series.push_back(row);
+    ++record_.leg.rows;
     if (station.profile)
       record_.profiles.push_back(gauge_.profile(time, position, state.velocity));
     if (control_.progress)
-      control_.progress(row, record_.steps);
+      control_.progress(row, steps_);
     throw_if_stopped(
         {.row = row, .crosses_itself = gauge_.crosses_itself(position), .roughness_limit = roughness_limit_});
     last_accepted_ = position;
@@ -240,6 +300,10 @@ private:
   Dynamics dynamics_;
   Gauge gauge_;
   Checkpoint record_;
+  long steps_;                           // with those of the present leg
+  bool repeats_ = false;                 // the present leg, from its beginning to where it was saved
+  std::size_t asked_ = 0;                // by the integrator, in the present leg
+  std::size_t repeated_rows_ = 0;        // that are still to come
   Vector last_accepted_;                 // position of the last row at which nothing stopped the march
   std::optional<NumericsFailure> cause_; // why a shape that the present step tried has no flow
   std::vector<Station> x_g_stations_, time_stations_;

@@ -1,5 +1,6 @@
 #pragma once
-// One march of a case, from a start or a checkpoint until the case's end or a reason to stop (stops.hpp).
+// One march of a case, from a start or a checkpoint until the case's end or a reason to stop (stops.hpp). It can be saved
+// after each step, and goes on from there bit by bit as if it had never been interrupted (Leg in outcome.hpp).
 #include "motion/stops.hpp"
 #include "observe/outcome.hpp"
 

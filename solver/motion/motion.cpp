@@ -21,6 +21,18 @@ Case companion(const Case &input) {
   return coarse;
 }
 
+// A march that has reached its end is not repeated.
+Outcome march_to_end(const Case &input, const Checkpoint &from, const Control &control,
+                     double roughness_limit = wrinkle_roughness) {
+  if (from.companion.empty())
+    return march_once(input, from, control, Role::main, roughness_limit);
+  Outcome outcome;
+  outcome.status = Status::reached;
+  outcome.last = from;
+  outcome.last.companion.clear();
+  return outcome;
+}
+
 // The march that is asked for, and the input that it ended with. Wrinkles on a mesh that was chosen from the accuracy may
 // be the mesh's own, and buckles amplify errors: then the march begins again, once, on a finer mesh and with shorter
 // steps, and what it shows there is believed.
@@ -31,7 +43,7 @@ struct MainMarch {
 MainMarch main_march(const Case &input, const Checkpoint &from, const Control &control) {
   const bool can_refine = input.mesh.membrane == 0 && input.time.scheme == Scheme::bdf;
   if (!can_refine)
-    return {input, march_once(input, from, control, Role::main)};
+    return {input, march_to_end(input, from, control)};
   const Resolution chosen = choose_resolution(input);
   Case finer = input;
   finer.mesh.membrane = 3 * chosen.membrane_nodes / 2;
@@ -39,12 +51,11 @@ MainMarch main_march(const Case &input, const Checkpoint &from, const Control &c
     finer.time.tolerance = chosen.time_tolerance / 30;
   const bool is_on_finer = from.position.size() == Eigen::Index{2} * finer.mesh.membrane;
   if (!is_on_finer) {
-    Outcome outcome =
-        march_once(input, from, control, Role::main, wrinkle_roughness_on_chosen_nodes(input.accuracy));
+    Outcome outcome = march_to_end(input, from, control, wrinkle_roughness_on_chosen_nodes(input.accuracy));
     if (outcome.failure != "wrinkled")
       return {input, std::move(outcome)};
   }
-  Outcome outcome = march_once(finer, is_on_finer ? from : Checkpoint{}, control, Role::main);
+  Outcome outcome = march_to_end(finer, is_on_finer ? from : Checkpoint{}, control);
   outcome.membrane_nodes = finer.mesh.membrane;
   return {finer, std::move(outcome)};
 }
@@ -57,7 +68,15 @@ Outcome march(const Case &input, const Checkpoint &from, const Control &control)
     return outcome;
   Control quiet;
   quiet.interrupted = control.interrupted;
-  const Outcome coarse = march_once(companion(marched), {}, quiet, Role::companion);
+  quiet.wants_checkpoint = control.wants_checkpoint;
+  if (control.save)
+    quiet.save = [&, &finished = outcome](const Checkpoint &coarse) {
+      Checkpoint both = finished.last;
+      both.companion = {coarse};
+      control.save(both);
+    };
+  const Checkpoint start = from.companion.empty() ? Checkpoint{} : from.companion.front();
+  const Outcome coarse = march_once(companion(marched), start, quiet, Role::companion);
   if (coarse.status == Status::interrupted)
     outcome.status = Status::interrupted;
   else if (coarse.status == Status::reached)

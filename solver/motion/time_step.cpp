@@ -27,20 +27,33 @@ constexpr double newton_share = 0.01;
 
 using Factors = Eigen::PartialPivLU<Matrix>;
 
+// A linear system that is factored when it is first solved.
+struct LinearSystem {
+  decltype(Equations::correction) correction;
+  Factors factors = {};
+  bool factored = false;
+};
+
 // CVODE's linear systems by Eigen's factors, which go to OpenBLAS: SUNDIALS' own dense solver is many times
-// slower on some hundred unknowns. The factors belong to the caller.
-SUNLinearSolver linear_solver(Factors &factors, SUNContext context) {
+// slower on some hundred unknowns. The system belongs to the caller.
+SUNLinearSolver linear_solver(LinearSystem &system, SUNContext context) {
   SUNLinearSolver solver = SUNLinSolNewEmpty(context);
-  solver->content = &factors;
+  solver->content = &system;
   solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
-  solver->ops->setup = [](SUNLinearSolver self, SUNMatrix matrix) {
-    static_cast<Factors *>(self->content)
-        ->compute(Eigen::Map<const Matrix>(SM_DATA_D(matrix), SM_ROWS_D(matrix), SM_COLUMNS_D(matrix)));
+  solver->ops->setup = [](SUNLinearSolver self, SUNMatrix /*matrix*/) {
+    static_cast<LinearSystem *>(self->content)->factored = false;
     return 0;
   };
-  solver->ops->solve = [](SUNLinearSolver self, SUNMatrix /*matrix*/, N_Vector x, N_Vector b,
+  solver->ops->solve = [](SUNLinearSolver self, SUNMatrix matrix, N_Vector x, N_Vector b,
                           realtype /*tolerance*/) {
-    view(x) = static_cast<const Factors *>(self->content)->solve(view(b));
+    LinearSystem &mine = *static_cast<LinearSystem *>(self->content);
+    view(x) = mine.correction([&]() -> Vector {
+      if (!mine.factored)
+        mine.factors.compute(
+            Eigen::Map<const Matrix>(SM_DATA_D(matrix), SM_ROWS_D(matrix), SM_COLUMNS_D(matrix)));
+      mine.factored = true;
+      return mine.factors.solve(view(b));
+    });
     return 0;
   };
   solver->ops->free = [](SUNLinearSolver self) {
@@ -54,13 +67,13 @@ SUNLinearSolver linear_solver(Factors &factors, SUNContext context) {
 } // namespace
 
 struct BdfIntegrator::Memory {
-  explicit Memory(Equations given) : equations(std::move(given)) {}
+  explicit Memory(Equations given) : equations(std::move(given)), system{equations.correction} {}
 
   Equations equations;
   SUNContext context = nullptr;
   N_Vector state = nullptr;
   SUNMatrix matrix = nullptr;
-  Factors factors;
+  LinearSystem system;
   SUNLinearSolver solver = nullptr;
   void *cvode = nullptr;
   double time = 0;
@@ -96,7 +109,7 @@ BdfIntegrator::BdfIntegrator(Equations equations, double time, const Vector &sta
   check(CVodeSStolerances(m.cvode, 0, tolerance), "CVodeSStolerances");
   check(CVodeSetUserData(m.cvode, &m), "CVodeSetUserData");
   m.matrix = SUNDenseMatrix(state.size(), state.size(), m.context);
-  m.solver = linear_solver(m.factors, m.context);
+  m.solver = linear_solver(m.system, m.context);
   check(CVodeSetLinearSolver(m.cvode, m.solver, m.matrix), "CVodeSetLinearSolver");
   check(CVodeSetJacFn(m.cvode, &Memory::jacobian), "CVodeSetJacFn");
   check(CVodeSetNonlinConvCoef(m.cvode, newton_share), "CVodeSetNonlinConvCoef");

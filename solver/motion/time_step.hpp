@@ -16,6 +16,9 @@ struct Equations {
   // dy/dt; false where the state is out of the domain and a shorter step may stay inside
   std::function<bool(const Vector &state, Vector &rate)> rate;
   std::function<bool(const Vector &state, Matrix &jacobian)> jacobian;
+  // a correction of Newton's iteration; solving for it may be left out where it is known
+  std::function<Vector(const std::function<Vector()> &solve)> correction =
+      [](const std::function<Vector()> &solve) { return solve(); };
 };
 
 class BdfIntegrator {

@@ -1,7 +1,9 @@
 #pragma once
 // How a run ends, whichever method computes it: a march in time, a steady state, a branch of them. And how its caller
 // follows and interrupts it.
+#include "flow/recycled_solver.hpp"
 #include "observe/records.hpp"
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
@@ -14,13 +16,25 @@ constexpr double runaway_stretch = 4;
 
 enum class Status { reached, steady, unbounded, failed, interrupted };
 
+// What a march has done since an integrator began. The integrator itself cannot be saved; but one that begins there again
+// and is answered the same takes the same steps, bit by bit, without a flow being computed.
+struct Leg {
+  std::vector<Vector>
+      answers; // to all that it has asked for, in this order; empty ones where there was no answer
+  std::size_t jacobian = 0; // which of them stands for the Jacobian that is in use
+  std::size_t rows = 0;     // of the series, recorded since it began
+  RecycledFlow recycled;    // what the flow has left behind
+};
+
 // Everything that a march needs to go on.
 struct Checkpoint {
-  double time = 0;
+  double time = 0; // here, and in `position` and `steps`: where the leg begins
   Vector position; // empty: not started
   long steps = 0;
   std::vector<SeriesRow> series;
   std::vector<Profile> profiles;
+  Leg leg = {};
+  std::vector<Checkpoint> companion = {}; // of a march that has reached its end: the coarser one beside it
 };
 
 // A steady state on a branch.
@@ -50,8 +64,9 @@ struct Outcome {
 // How the caller of a run follows it and interrupts it.
 struct Control {
   std::function<void(const SeriesRow &, long steps)> progress; // after each recorded row
-  std::function<void(const Checkpoint &)> save;                // at each point from which a march can go on
   std::function<bool()> interrupted;                           // asked after each step
+  std::function<bool()> wants_checkpoint;                      // asked after each step
+  std::function<void(const Checkpoint &)> save; // where either is answered by yes, and after each leg
 };
 
 // Thrown where the caller has asked to stop.

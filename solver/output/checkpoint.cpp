@@ -4,9 +4,12 @@
 #include "base/json_file.hpp"
 #include "base/text.hpp"
 #include "observe/quantities.hpp"
+#include <bit>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
-#include <optional>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 
@@ -15,12 +18,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Why a content is no checkpoint.
+struct Damage {
+  const char *what;
+};
+
 // JSON has no word for what is not finite.
 Json exact(double value) {
   return std::isfinite(value) ? Json(value) : Json(number_text(value));
 }
 double exact(const Json &json) {
-  return json.is_string() ? to_number(json.get<std::string>()).value() : json.get<double>();
+  if (!json.is_string())
+    return json.get<double>();
+  if (const auto value = to_number(json.get<std::string>()))
+    return *value;
+  throw Damage{"a number is none"};
 }
 
 Json exact(const Vector &values) {
@@ -36,16 +48,59 @@ Vector exact_vector(const Json &json) {
   return values;
 }
 
+// Many numbers, 16 hexadecimal digits each.
+std::string packed(const double *values, Eigen::Index size) {
+  std::string text;
+  text.reserve(16 * static_cast<std::size_t>(size));
+  for (Eigen::Index i = 0; i < size; ++i)
+    fmt::format_to(std::back_inserter(text), "{:016x}", std::bit_cast<std::uint64_t>(values[i]));
+  return text;
+}
+Vector unpacked(const std::string &text) {
+  Vector values(static_cast<Eigen::Index>(text.size() / 16));
+  const char *digits = text.data();
+  for (double &value : values) {
+    std::uint64_t bits = 0;
+    std::from_chars(digits, digits + 16, bits, 16);
+    value = std::bit_cast<double>(bits);
+    digits += 16;
+  }
+  return values;
+}
+
+Json packed(const std::vector<Vector> &list) {
+  Json json = Json::array();
+  for (const Vector &values : list)
+    json.push_back(packed(values.data(), values.size()));
+  return json;
+}
+std::vector<Vector> unpacked_list(const Json &json) {
+  std::vector<Vector> list;
+  for (const std::string text : json)
+    list.push_back(unpacked(text));
+  return list;
+}
+
+Json packed(const Recycled &recycled) {
+  return {{"inverse", packed(recycled.inverse.data(), recycled.inverse.size())},
+          {"positions", packed(recycled.positions)},
+          {"solutions", packed(recycled.solutions)}};
+}
+Recycled unpacked_recycled(const Json &json) {
+  const Vector inverse = unpacked(json.at("inverse"));
+  const Eigen::Index rows = std::lround(std::sqrt(static_cast<double>(inverse.size())));
+  if (rows * rows != inverse.size())
+    throw Damage{"a matrix is not square"};
+  return {inverse.reshaped(rows, rows), unpacked_list(json.at("positions")),
+          unpacked_list(json.at("solutions"))};
+}
+
 constexpr const char *file_name = "checkpoint.json";
 // {"identity":"...","digest":"...","run":...}
 constexpr std::string_view file_begin = "{\"identity\":", run_begin = "\"run\":";
 
-Json to_json(const SavedRun &saved) {
-  const Checkpoint &checkpoint = saved.checkpoint;
+Json to_json(const Checkpoint &checkpoint) {
   Json json;
-  json["started"] = saved.effort.started;
-  json["cpu_seconds"] = saved.effort.cpu_seconds;
-  json["wall_seconds"] = saved.effort.wall_seconds;
   json["time"] = exact(checkpoint.time);
   json["steps"] = checkpoint.steps;
   json["position"] = exact(checkpoint.position);
@@ -63,13 +118,20 @@ Json to_json(const SavedRun &saved) {
       values[quantity.name] = exact(profile.*quantity.values);
     json["profiles"].push_back(std::move(values));
   }
+  const Leg &leg = checkpoint.leg;
+  json["leg"] = {{"rows", leg.rows},
+                 {"jacobian", leg.jacobian},
+                 {"answers", packed(leg.answers)},
+                 {"velocity", packed(leg.recycled.velocity)},
+                 {"traction", packed(leg.recycled.traction)}};
+  json["companion"] = Json::array();
+  for (const Checkpoint &companion : checkpoint.companion)
+    json["companion"].push_back(to_json(companion));
   return json;
 }
 
-SavedRun saved_run(const Json &json) {
-  SavedRun saved;
-  saved.effort = {json.at("started"), json.at("cpu_seconds"), json.at("wall_seconds")};
-  Checkpoint &checkpoint = saved.checkpoint;
+Checkpoint checkpoint_of(const Json &json) {
+  Checkpoint checkpoint;
   checkpoint.time = exact(json.at("time"));
   checkpoint.steps = json.at("steps");
   checkpoint.position = exact_vector(json.at("position"));
@@ -88,7 +150,26 @@ SavedRun saved_run(const Json &json) {
       profile.*quantity.values = exact_vector(values.at(quantity.name));
     checkpoint.profiles.push_back(std::move(profile));
   }
-  return saved;
+  const Json &leg = json.at("leg");
+  checkpoint.leg = {unpacked_list(leg.at("answers")),
+                    leg.at("jacobian"),
+                    leg.at("rows"),
+                    {unpacked_recycled(leg.at("velocity")), unpacked_recycled(leg.at("traction"))}};
+  for (const Json &companion : json.at("companion"))
+    checkpoint.companion.push_back(checkpoint_of(companion));
+  return checkpoint;
+}
+
+Json to_json(const SavedRun &saved) {
+  return {{"started", saved.effort.started},
+          {"cpu_seconds", saved.effort.cpu_seconds},
+          {"wall_seconds", saved.effort.wall_seconds},
+          {"checkpoint", to_json(saved.checkpoint)}};
+}
+
+SavedRun saved_run(const Json &json) {
+  return {checkpoint_of(json.at("checkpoint")),
+          {json.at("started"), json.at("cpu_seconds"), json.at("wall_seconds")}};
 }
 
 } // namespace
@@ -118,8 +199,8 @@ FoundCheckpoint read_checkpoint(const fs::path &directory, const std::string &id
     return {.run = saved};
   } catch (const Json::exception &error) {
     return {.damage = error.what()};
-  } catch (const std::bad_optional_access &) {
-    return {.damage = "a number is none"};
+  } catch (const Damage &damage) {
+    return {.damage = damage.what};
   }
 }
 

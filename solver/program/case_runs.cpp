@@ -174,7 +174,8 @@ struct CaseRuns {
     remove_results(home);
 
     const Stopwatch stopwatch{latest.effort};
-    double written = wall_seconds();
+    constexpr double soon_written = 0.01; // seconds; where it takes longer, checkpoints are as much rarer
+    double written = wall_seconds(), pause = options.seconds_between_checkpoints;
     Control control;
     control.progress = [&](const SeriesRow &row, long steps) {
       Progress &progress = shared.progress(index);
@@ -186,12 +187,15 @@ struct CaseRuns {
       show_progress();
       return stops();
     };
+    control.wants_checkpoint = [&] { return wall_seconds() - written >= pause; };
     control.save = [&](const Checkpoint &checkpoint) {
       latest.checkpoint = checkpoint;
-      if (wall_seconds() - written < options.seconds_between_checkpoints)
+      if (!control.wants_checkpoint())
         return;
+      const double begun = wall_seconds();
       write_checkpoint(home, identity, {checkpoint, stopwatch.effort()});
       written = wall_seconds();
+      pause = options.seconds_between_checkpoints * std::max(1.0, (written - begun) / soon_written);
     };
     const Checkpoint from = latest.checkpoint;
     const Outcome outcome = [&] {

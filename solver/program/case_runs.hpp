@@ -24,7 +24,7 @@ struct RunOptions {
   unsigned jobs = 1;  // more than one: each run in a process of its own
   bool fresh = false; // use neither finished runs nor checkpoints
   bool on_a_terminal = false;
-  double seconds_between_checkpoints = 0.5;
+  double seconds_between_checkpoints = 0.5;          // at least
   std::function<bool()> stop = [] { return false; }; // asked after each step
 };
 

@@ -199,6 +199,13 @@ ExitCode compute_runs(const CaseInput &whole, const Arguments &arguments, const 
   return std::ranges::any_of(results, has_failed) ? ExitCode::numerics_failed : ExitCode::done;
 }
 
+// A table must not take the place of what it is compared with.
+void require_other_file(const std::string &table, const fs::path &expectations) {
+  if (std::error_code ignored; !table.empty() && fs::equivalent(table + ".csv", expectations, ignored))
+    throw InputError(fmt::format("error: --table {}: '{}' holds what is expected; give another name\n", table,
+                                 expectations.string()));
+}
+
 // Prints the comparisons if there are any, and writes them to files if these have a name.
 void show_comparisons(const std::vector<Comparison> &comparisons, const std::string &files) {
   const std::vector<TextRow> rows = comparison_rows(comparisons);
@@ -250,6 +257,8 @@ ExitCode check_case(const Arguments &arguments) {
   if (published)
     std::ranges::move(expectations_of(read_expectations(*published), input.name),
                       std::back_inserter(expectations));
+  require_other_file(arguments.table, input.file.parent_path() / "expected.csv");
+  require_other_file(arguments.table, published.value_or(""));
   write_run_list(input, run_options(arguments, input).directory);
   const std::vector<RunResult> results = compute_case(input, arguments);
   if (std::ranges::any_of(results, is_interrupted))
@@ -287,6 +296,7 @@ ExitCode write_ledger(const Arguments &arguments) {
   const auto published = find_expectations(fs::current_path() / "case.toml");
   if (!published)
     throw InputError("error: there is no tables/published.csv here or above\n");
+  require_other_file(arguments.table, *published);
   const fs::path root = published->parent_path().parent_path();
   const std::vector<Expectation> expectations = read_expectations(*published);
   std::vector<std::string> names = referenced_cases(expectations);

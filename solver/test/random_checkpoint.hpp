@@ -53,6 +53,14 @@ inline Checkpoint random_checkpoint() {
       profile.*field = random_vector(points, random);
     checkpoint.profiles.push_back(profile);
   }
+  checkpoint.leg.answers = {random_vector(24, random), {}, random_vector(1, random)};
+  checkpoint.leg.jacobian = 2;
+  checkpoint.leg.rows = 3;
+  checkpoint.leg.recycled.velocity.inverse = random_vector(25, random).reshaped(5, 5);
+  checkpoint.leg.recycled.velocity.positions = {random_vector(4, random)};
+  checkpoint.leg.recycled.traction.solutions = {random_vector(4, random), random_vector(2, random)};
+  checkpoint.companion.resize(1);
+  checkpoint.companion[0].position = random_vector(22, random);
   return checkpoint;
 }
 

@@ -2,6 +2,7 @@
 #include "output/checkpoint.hpp"
 #include "random_checkpoint.hpp"
 #include "temporary_directory.hpp"
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <boost/test/unit_test.hpp>
@@ -48,6 +49,19 @@ BOOST_AUTO_TEST_CASE(checkpoint_comes_back_bit_by_bit) {
     for (const auto field : profile_fields)
       BOOST_TEST(((read.profiles[i].*field).array() == (written.profiles[i].*field).array()).all());
   }
+  const auto equal = [](const std::vector<Vector> &a, const std::vector<Vector> &b) {
+    return std::ranges::equal(a, b, [](const Vector &x, const Vector &y) { return x == y; });
+  };
+  BOOST_TEST(equal(read.leg.answers, written.leg.answers));
+  BOOST_TEST(read.leg.jacobian == 2u);
+  BOOST_TEST(read.leg.rows == 3u);
+  const auto &[velocity, traction] = read.leg.recycled;
+  BOOST_TEST((velocity.inverse == written.leg.recycled.velocity.inverse));
+  BOOST_TEST(equal(velocity.positions, written.leg.recycled.velocity.positions));
+  BOOST_TEST(traction.inverse.size() == 0);
+  BOOST_TEST(equal(traction.solutions, written.leg.recycled.traction.solutions));
+  BOOST_REQUIRE(read.companion.size() == 1u);
+  BOOST_TEST((read.companion[0].position == written.companion[0].position));
 }
 
 // Each of its bytes counts.

@@ -100,6 +100,55 @@ BOOST_AUTO_TEST_CASE(a_resumed_march_is_the_same) {
   }
 }
 
+// Stopped after every so many steps, whether they end a leg, lie within one or within the companion, a march goes on from
+// where it was and ends with the same bits.
+BOOST_AUTO_TEST_CASE(a_march_that_is_interrupted_anywhere_is_the_same) {
+  for (const Scheme scheme : {Scheme::bdf, Scheme::rk4})
+    for (const double viscosity_ratio : {1.0, 5.0}) {
+      Case physics = short_entrance();
+      physics.flow.viscosity_ratio = viscosity_ratio;
+      physics.mesh.membrane = 16;
+      physics.until.x_g = -3.2;
+      physics.output.profiles_at_x_g = {-3.71, -3.5};
+      physics.time.scheme = scheme;
+      physics.time.step = 4e-3;
+      const Outcome whole = march(physics, {}, {});
+      BOOST_REQUIRE_MESSAGE((whole.status == Status::reached), whole.message);
+      constexpr int patience = 47;
+      Checkpoint saved;
+      Outcome last;
+      int calls = 0;
+      do {
+        int steps = 0;
+        Control control;
+        control.interrupted = [&] { return steps >= patience; };
+        control.save = [&](const Checkpoint &checkpoint) { saved = checkpoint; };
+        // Steps that are only repeated, from where the leg began, cost no patience.
+        long known = static_cast<long>(saved.leg.answers.size());
+        if (!saved.companion.empty())
+          known = static_cast<long>(saved.companion[0].leg.answers.size());
+        control.wants_checkpoint = [&] {
+          steps += known > 0 ? 0 : 1;
+          --known;
+          return false;
+        };
+        last = march(physics, saved, control);
+        BOOST_REQUIRE(++calls < 100);
+      } while (last.status == Status::interrupted);
+      BOOST_TEST(calls > 3);
+      BOOST_TEST((last.status == whole.status));
+      BOOST_TEST(last.last.steps == whole.last.steps);
+      BOOST_TEST((last.error_estimate == whole.error_estimate));
+      BOOST_REQUIRE(last.last.series.size() == whole.last.series.size());
+      using Numbers = std::array<double, sizeof(SeriesRow) / sizeof(double)>;
+      for (std::size_t k = 0; k < whole.last.series.size(); ++k)
+        BOOST_TEST(
+            (std::bit_cast<Numbers>(last.last.series[k]) == std::bit_cast<Numbers>(whole.last.series[k])));
+      BOOST_REQUIRE(last.last.profiles.size() == whole.last.profiles.size());
+      BOOST_TEST((last.last.position - whole.last.position).cwiseAbs().maxCoeff() == 0);
+    }
+}
+
 // Rows that are recorded for their profiles leave the march and its other rows as they are, bit by bit.
 BOOST_AUTO_TEST_CASE(further_rows_change_nothing) {
   Case physics = short_entrance();

@@ -143,7 +143,7 @@ Evaluation evaluation_on(const Case &physics, std::vector<Vector> shapes) {
   std::vector<double> seconds;
   double fastest = 0;
   for (const Vector &shape : shapes) {
-    dynamics.forget();
+    *dynamics.recycled = {};
     seconds.push_back(seconds_of([&] { dynamics.flow(shape); }));
     fastest = std::max(fastest, dynamics.jacobian(shape).eigenvalues().cwiseAbs().maxCoeff());
   }
