@@ -197,6 +197,11 @@ std::vector<Key> until_keys() {
                            "11.84, unless until.time is given"})),
       of_motion({"until.time", "stop at this time", member<std::optional<double>>(CAPSULE_AT(until.time)),
                  at_least(shortest_time), "none"}),
+      of_motion({"until.area_stretch",
+                 "the membrane bursts where lambda_s lambda_phi comes to this anywhere on it",
+                 member<std::optional<double>>(CAPSULE_AT(until.area_stretch)), above(1), "none"}),
+      of_motion({"until.tension", "the membrane bursts where a principal tension comes to this",
+                 member<std::optional<double>>(CAPSULE_AT(until.tension)), above(0), "none"}),
   };
 }
 

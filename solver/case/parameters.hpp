@@ -68,6 +68,8 @@ struct TimeSpec {
 struct UntilSpec {
   std::optional<double> x_g;
   std::optional<double> time;
+  std::optional<double> area_stretch; // what the membrane bears: lambda_s lambda_phi
+  std::optional<double> tension;      // the larger principal one
 };
 
 // What the dimensionless values above may follow from, physical.hpp.

@@ -40,7 +40,7 @@ constexpr std::array own_columns{Column{"id", &Expectation::id},
                                  Column{"allowed", &Expectation::allowed},
                                  Column{"reason", &Expectation::reason}};
 constexpr std::array kinds{"number", "bound", "ratio", "order", "behaviour", "picture"};
-constexpr std::array statuses{"reached", "steady", "unbounded", "failed"};
+constexpr std::array statuses{"reached", "steady", "unbounded", "burst", "failed"};
 constexpr std::array verdicts{"agrees", "differs", "not decidable"};
 
 // Reads the published value and the allowed distance. Returns what is wrong with them, or nothing.

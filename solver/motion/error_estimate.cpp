@@ -108,4 +108,10 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
   return error;
 }
 
+void add_errors_of_the_end(const std::vector<SeriesRow> &fine, const std::vector<SeriesRow> &coarse,
+                           Scheme scheme, std::map<std::string, double> &errors) {
+  for (const auto &[name, value] : {std::pair("time", &SeriesRow::time), std::pair("x_g", &SeriesRow::x_g)})
+    errors[name] = safety_of(name, scheme) * std::abs(fine.back().*value - coarse.back().*value);
+}
+
 } // namespace capsule

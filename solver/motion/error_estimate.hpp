@@ -16,4 +16,8 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
                                               const std::vector<SeriesRow> &coarse, bool by_x_g,
                                               Scheme scheme);
 
+// Where both marches end by themselves: "time" and "x_g" of the last rows.
+void add_errors_of_the_end(const std::vector<SeriesRow> &fine, const std::vector<SeriesRow> &coarse,
+                           Scheme scheme, std::map<std::string, double> &errors);
+
 } // namespace capsule

@@ -18,6 +18,7 @@ namespace {
 constexpr int rows_in_time = 200; // of a march that ends at a time
 constexpr int steps_of_a_leg = 250;
 constexpr int explicit_steps_of_a_leg = 1000;
+constexpr Station burst_station{.value = 0, .profile = true, .regular = true, .end = true};
 constexpr double shortest_leg = 1e-4; // a march that gains less time than this in one leg is given up
 
 // Integrates, records what is due, and stops.
@@ -48,7 +49,9 @@ public:
       }
       outcome.status = input_.time.scheme == Scheme::bdf ? run_bdf() : run_explicit();
     } catch (const NumericsFailure &failure) {
-      outcome.status = failure.kind == "unbounded" ? Status::unbounded : Status::failed;
+      outcome.status = failure.kind == "unbounded" ? Status::unbounded
+                       : failure.kind == "burst"   ? Status::burst
+                                                   : Status::failed;
       const SeriesRow last = record_.series.empty() ? SeriesRow{} : record_.series.back();
       outcome.failure = failure.kind;
       outcome.message = fmt::format("{} (after t = {:.6g}, x_g = {:.6g}); {}", failure.what(), last.time,
@@ -212,10 +215,24 @@ private:
     return std::nullopt;
   }
 
+  // When the membrane came to what it bears in the last step, if it did.
+  template <class Integrator>
+  double burst_time(const Integrator &integrator) const {
+    const UntilSpec &until = input_.until;
+    const auto beyond = [&](double time) {
+      return beyond_bearing(until, gauge_.largest_strain(integrator.state_at(time)));
+    };
+    const double now = integrator.time();
+    return (until.area_stretch || until.tension) && beyond(now) >= 0
+               ? crossing_time(beyond, integrator.previous_time(), now)
+               : std::numeric_limits<double>::infinity();
+  }
+
   // Records the rows that fall into the last step, in order of time; true at the end.
   template <class Integrator>
   bool record_due(const Integrator &integrator) {
     const double now = integrator.time(), before = integrator.previous_time();
+    const double burst = burst_time(integrator);
     for (;;) {
       double due = std::numeric_limits<double>::infinity();
       const Station *station = nullptr;
@@ -238,6 +255,10 @@ private:
           }
         }
       }
+      if (burst <= now && burst <= due) {
+        record(burst, integrator.state_at(burst), burst_station, true);
+        return true;
+      }
       if (station == nullptr)
         return false;
       record(due, integrator.state_at(due), *station);
@@ -250,7 +271,8 @@ private:
     }
   }
 
-  // x_g is nearly linear in a step: the secant rule needs about three values; halving guards it.
+  // Root of a function that rises in a step. x_g is nearly linear there: the secant rule needs about three values;
+  // halving guards it.
   template <class Function>
   static double crossing_time(const Function &ahead, double since, double now) {
     double low = since, high = now;
@@ -269,7 +291,7 @@ private:
     return time;
   }
 
-  void record(double time, const Vector &position, const Station &station) {
+  void record(double time, const Vector &position, const Station &station, bool bursts = false) {
     if (repeated_rows_ > 0) { // it is in the series
       --repeated_rows_;
       last_accepted_ = position;
@@ -288,8 +310,10 @@ private:
       record_.profiles.push_back(gauge_.profile(time, position, state.velocity));
     if (control_.progress)
       control_.progress(row, steps_);
-    throw_if_stopped(
-        {.row = row, .crosses_itself = gauge_.crosses_itself(position), .roughness_limit = roughness_limit_});
+    throw_if_stopped({.row = row,
+                      .crosses_itself = gauge_.crosses_itself(position),
+                      .roughness_limit = roughness_limit_,
+                      .bursts = bursts});
     last_accepted_ = position;
   }
 

@@ -64,7 +64,8 @@ MainMarch main_march(const Case &input, const Checkpoint &from, const Control &c
 
 Outcome march(const Case &input, const Checkpoint &from, const Control &control) {
   auto [marched, outcome] = main_march(input, from, control);
-  if (outcome.status != Status::reached || input.numerics == Numerics::paper)
+  const bool bursts = outcome.status == Status::burst;
+  if ((outcome.status != Status::reached && !bursts) || input.numerics == Numerics::paper)
     return outcome;
   Control quiet;
   quiet.interrupted = control.interrupted;
@@ -79,10 +80,13 @@ Outcome march(const Case &input, const Checkpoint &from, const Control &control)
   const Outcome coarse = march_once(companion(marched), start, quiet, Role::companion);
   if (coarse.status == Status::interrupted)
     outcome.status = Status::interrupted;
-  else if (coarse.status == Status::reached)
+  else if (coarse.status == Status::reached || coarse.status == Status::burst) {
     outcome.error_estimate = estimate_errors(outcome.last.series, coarse.last.series,
                                              input.until.x_g.has_value(), input.time.scheme);
-  else
+    if (bursts && coarse.status == Status::burst)
+      add_errors_of_the_end(outcome.last.series, coarse.last.series, input.time.scheme,
+                            outcome.error_estimate);
+  } else
     outcome.message = "no error estimate, because the coarse companion failed: " + coarse.message;
   return outcome;
 }

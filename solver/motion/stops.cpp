@@ -44,6 +44,16 @@ constexpr std::array table{
                    now.row.dents);
              },
          .advice = "raise membrane.bending_ratio, or mesh.membrane until it resolves the wrinkles"},
+    Stop{.kind = "burst",
+         .holds = [](const Instant &now) { return now.bursts; },
+         .what =
+             [](const Instant &now) {
+               return fmt::format("the membrane bursts with an area stretch of {:.6g} at S = {:.4g} and a "
+                                  "tension of {:.6g} at S = {:.4g}",
+                                  now.row.max_area_stretch, now.row.S_at_max_area_stretch,
+                                  now.row.max_tension, now.row.S_at_max_tension);
+             },
+         .advice = "until.area_stretch and until.tension say what it bears"},
     Stop{.kind = "unbounded",
          .holds = [](const Instant &now) { return now.row.max_stretch > runaway_stretch; },
          .what =
@@ -57,6 +67,15 @@ constexpr std::array table{
 
 double wrinkle_roughness_on_chosen_nodes(double accuracy) {
   return std::min(wrinkle_roughness, std::cbrt(accuracy));
+}
+
+double beyond_bearing(const UntilSpec &limits, const LargestStrain &strain) {
+  double beyond = -std::numeric_limits<double>::infinity();
+  if (limits.area_stretch)
+    beyond = std::max(beyond, strain.area_stretch - *limits.area_stretch);
+  if (limits.tension)
+    beyond = std::max(beyond, strain.tension - *limits.tension);
+  return beyond;
 }
 
 std::span<const Stop> stops() {

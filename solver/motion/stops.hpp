@@ -1,5 +1,7 @@
 #pragma once
 // The reasons to stop a march before its end, each a line of a table (stops.cpp).
+#include "case/parameters.hpp"
+#include "observe/gauge.hpp"
 #include "observe/records.hpp"
 #include <limits>
 #include <span>
@@ -12,11 +14,15 @@ constexpr double wrinkle_roughness = 0.4;
 // The same on nodes that were chosen from the accuracy: there wrinkles have to be resolved to it.
 double wrinkle_roughness_on_chosen_nodes(double accuracy);
 
+// By how much a membrane is strained beyond what it bears; negative: it holds.
+double beyond_bearing(const UntilSpec &limits, const LargestStrain &strain);
+
 // What is known of the membrane at an instant.
 struct Instant {
   const SeriesRow &row;
   bool crosses_itself = false;
   double roughness_limit = std::numeric_limits<double>::infinity(); // beyond it dents are wrinkles
+  bool bursts = false;                                              // it has come to what it bears
 };
 
 struct Stop {

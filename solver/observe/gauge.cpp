@@ -27,13 +27,19 @@ Sampling pole_to_pole(const MeridianBasis &basis) {
   return sample(basis, Vector::LinSpaced(n, pole_gap, pi - pole_gap), Vector::Zero(n));
 }
 
-// Largest value of the quartic through the largest sample and two neighbours on each side; next to an end, of
-// the parabola through three.
-double refined_maximum(const Vector &f) {
+// At an index between those of the samples.
+struct Maximum {
+  double value, index;
+};
+
+// Of the quartic through the largest sample and two neighbours on each side; next to an end, of the parabola through
+// three.
+Maximum maximum(const Vector &f) {
   Eigen::Index k = 0;
   const double best = f.maxCoeff(&k);
+  const Maximum sample{best, static_cast<double>(k)};
   if (k == 0 || k == f.size() - 1)
-    return best;
+    return sample;
   const bool inside = k > 1 && k + 2 < f.size();
   const double near_sum = f[k + 1] + f[k - 1], near_difference = f[k + 1] - f[k - 1];
   const double far_sum = inside ? f[k + 2] + f[k - 2] : 4 * near_sum - 6 * best;
@@ -46,10 +52,15 @@ double refined_maximum(const Vector &f) {
   for (int step = 0; step < 4; ++step) {
     const double bend = d2 + t * (d3 + t * d4 / 2);
     if (!(bend < 0))
-      return best;
+      return sample;
     t = std::clamp(t - (d1 + t * (d2 + t * (d3 / 2 + t * d4 / 6))) / bend, -1.0, 1.0);
   }
-  return std::max(best, best + t * (d1 + t * (d2 / 2 + t * (d3 / 6 + t * d4 / 24))));
+  const double top = best + t * (d1 + t * (d2 / 2 + t * (d3 / 6 + t * d4 / 24)));
+  return top > best ? Maximum{top, sample.index + t} : sample;
+}
+
+double refined_maximum(const Vector &f) {
+  return maximum(f).value;
 }
 
 // The number of stretches of negative kappa_s whose integral over the arc is more than dent_angle.
@@ -197,6 +208,23 @@ bool Gauge::crosses_itself(const Vector &position) const {
   return false;
 }
 
+// S at an index between those of fine_.
+double Gauge::arc_at(double index) const {
+  const auto k = std::min(static_cast<Eigen::Index>(index), arc_from_pole_.size() - 2);
+  return arc_from_pole_[k] + (index - static_cast<double>(k)) * (arc_from_pole_[k + 1] - arc_from_pole_[k]);
+}
+
+LargestStrain Gauge::largest_strain(const MembraneState &state) const {
+  const Maximum area = maximum(state.stretch_meridional.cwiseProduct(state.stretch_azimuthal));
+  const Maximum meridional = maximum(state.tension_meridional), azimuthal = maximum(state.tension_azimuthal);
+  const Maximum tension = azimuthal.value > meridional.value ? azimuthal : meridional;
+  return {area.value, arc_at(area.index), tension.value, arc_at(tension.index)};
+}
+
+LargestStrain Gauge::largest_strain(const Vector &position) const {
+  return largest_strain(membrane_state(membrane_, fine_, position));
+}
+
 SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity) const {
   const Eigen::Index n = membrane_.basis.size();
   SeriesRow row;
@@ -217,6 +245,11 @@ SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity
 
   const MembraneState state = membrane_state(membrane_, fine_, position);
   row.max_stretch = refined_maximum(state.stretch_meridional);
+  const LargestStrain strain = largest_strain(state);
+  row.max_area_stretch = strain.area_stretch;
+  row.S_at_max_area_stretch = strain.area_stretch_S;
+  row.max_tension = strain.tension;
+  row.S_at_max_tension = strain.tension_S;
   row.front_stretch = state.stretch_meridional[state.stretch_meridional.size() - 1];
   row.min_film = film(position);
   row.length = refined_maximum(state.x) + refined_maximum(-state.x);

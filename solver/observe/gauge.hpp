@@ -12,6 +12,11 @@ namespace capsule {
 // parachute has one, at its rear; three or more are wrinkles.
 constexpr double dent_angle = 0.15;
 
+// Where a membrane is strained most: area stretch lambda_s lambda_phi and the larger principal tension, and the S of each.
+struct LargestStrain {
+  double area_stretch, area_stretch_S, tension, tension_S;
+};
+
 // Measures the shapes that one membrane takes in one pore. Integrals are taken on Gauss panels, extremes on
 // points four times as dense as the nodes with a quartic through the best five.
 class Gauge {
@@ -25,7 +30,8 @@ public:
   double film(const Vector &position) const;
   // Whether the meridian crosses itself.
   bool crosses_itself(const Vector &position) const;
-  // All but the pressure drops. Throws what Conductor throws.
+  LargestStrain largest_strain(const Vector &position) const;
+  // All but what the flow says of pressure and flow rate. Throws what Conductor throws.
   SeriesRow row(double time, const Vector &position, const Vector &velocity) const;
   // Of the pore without a capsule, where resistances are measured.
   std::optional<double> empty_resistance() const;
@@ -36,6 +42,8 @@ private:
     double volume, first_moment, area;
   };
   Integrals integrals(const Vector &position) const;
+  double arc_at(double index) const;
+  LargestStrain largest_strain(const MembraneState &state) const;
 
   Membrane membrane_;
   std::optional<Pore> pore_;

@@ -14,7 +14,7 @@ namespace capsule {
 // Meridional stretch beyond which a membrane is said to run away, in a march and on a branch of steady states.
 constexpr double runaway_stretch = 4;
 
-enum class Status { reached, steady, unbounded, failed, interrupted };
+enum class Status { reached, steady, unbounded, burst, failed, interrupted };
 
 // What a march has done since an integrator began. The integrator itself cannot be saved; but one that begins there again
 // and is answered the same takes the same steps, bit by bit, without a flow being computed.

@@ -12,6 +12,7 @@ constexpr PhysicalUnit second{&Scales::time, dimension::time};
 constexpr PhysicalUnit metre{&Scales::length, dimension::length};
 constexpr PhysicalUnit metre_per_second{&Scales::velocity, dimension::velocity};
 constexpr PhysicalUnit pascal{&Scales::pressure, dimension::pressure};
+constexpr PhysicalUnit newton_per_metre{&Scales::tension, dimension::tension};
 
 // What all of the membrane makes converges faster with the mesh than the stretches, which are local.
 constexpr Agreement tenth{.share = 0.1}, tenth_of_value{.share = 0.1, .relative = true};
@@ -80,6 +81,23 @@ constexpr std::array quantities{
         .unit = PhysicalUnit{&Scales::flow_rate, dimension::flow_rate},
         .error = ErrorEstimate::of_marches,
         .of_the_pore = true},
+    ReportedQuantity{.name = "max_area_stretch",
+                     .meaning = "largest area stretch, lambda_s lambda_phi",
+                     .value = &SeriesRow::max_area_stretch,
+                     .error = ErrorEstimate::of_all},
+    ReportedQuantity{.name = "S_at_max_area_stretch",
+                     .meaning = "where on the membrane, as arc length S of profiles",
+                     .value = &SeriesRow::S_at_max_area_stretch,
+                     .unit = metre},
+    ReportedQuantity{.name = "max_tension",
+                     .meaning = "largest principal tension",
+                     .value = &SeriesRow::max_tension,
+                     .unit = newton_per_metre,
+                     .error = ErrorEstimate::of_all},
+    ReportedQuantity{.name = "S_at_max_tension",
+                     .meaning = "where on the membrane, as arc length S of profiles",
+                     .value = &SeriesRow::S_at_max_tension,
+                     .unit = metre},
     ReportedQuantity{.name = "front_stretch",
                      .meaning = "meridional stretch ratio at the downstream pole",
                      .value = &SeriesRow::front_stretch,
@@ -152,6 +170,11 @@ constexpr std::array of_the_peak{
     PeakQuantity{"x_g_at_peak", &Peak::x_g, metre},
 };
 
+constexpr std::array of_the_way{
+    LargestQuantity{"area_stretch", &SeriesRow::max_area_stretch, &SeriesRow::S_at_max_area_stretch},
+    LargestQuantity{"tension", &SeriesRow::max_tension, &SeriesRow::S_at_max_tension},
+};
+
 constexpr std::array of_a_profile{
     ProfileQuantity{"S", &Profile::S},
     ProfileQuantity{"x", &Profile::x},
@@ -192,6 +215,10 @@ std::vector<ReportedQuantity> branch_quantities() {
 
 std::span<const PeakQuantity> peak_quantities() {
   return of_the_peak;
+}
+
+std::span<const LargestQuantity> largest_quantities() {
+  return of_the_way;
 }
 
 std::span<const ProfileQuantity> profile_quantities() {

@@ -61,6 +61,15 @@ struct PeakQuantity {
 };
 std::span<const PeakQuantity> peak_quantities();
 
+// Of a march in summary.json: the largest value over the whole way as "largest_<name>", and where, "x_g_at_largest_<name>"
+// and "S_at_largest_<name>".
+struct LargestQuantity {
+  const char *name;
+  double SeriesRow::*value;
+  double SeriesRow::*S;
+};
+std::span<const LargestQuantity> largest_quantities();
+
 // A column of profiles.csv.
 struct ProfileQuantity {
   const char *name;

@@ -19,6 +19,10 @@ struct SeriesRow {
   double pressure_drop_reciprocal = 0;
   double flow_rate = 1;
   double max_stretch = 0;
+  double max_area_stretch = 0;
+  double S_at_max_area_stretch = 0;
+  double max_tension = 0;
+  double S_at_max_tension = 0;
   double front_stretch = 0;
   double min_film = 0;
   double length = 0;
@@ -53,5 +57,15 @@ struct Peak {
   double x_g = 0;
 };
 std::optional<Peak> entry_peak(const std::vector<SeriesRow> &series);
+
+// The largest value of a column over the whole way, with a parabola in time through the three rows around it, and where:
+// in the pore and, by another column, on the membrane at the largest row.
+struct Largest {
+  double value = 0;
+  double x_g = 0;
+  double S = 0;
+};
+std::optional<Largest> largest_on_the_way(const std::vector<SeriesRow> &series, double SeriesRow::*value,
+                                          double SeriesRow::*S);
 
 } // namespace capsule

@@ -23,6 +23,8 @@ const char *status_text(Status status) {
     return "steady";
   case Status::unbounded:
     return "unbounded";
+  case Status::burst:
+    return "burst";
   case Status::failed:
     return "failed";
   case Status::interrupted:
@@ -81,6 +83,13 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   const auto peak = moved && has_pore ? entry_peak(series) : std::nullopt;
   for (const PeakQuantity &quantity : peak_quantities())
     json[quantity.name] = peak ? finite_or_null((*peak).*quantity.value) : Json();
+  for (const LargestQuantity &quantity : largest_quantities()) {
+    const auto largest = moved ? largest_on_the_way(series, quantity.value, quantity.S) : std::nullopt;
+    const std::string name = std::string("largest_") + quantity.name;
+    json[name] = largest ? finite_or_null(largest->value) : Json();
+    json["x_g_at_" + name] = largest && has_pore ? finite_or_null(largest->x_g) : Json();
+    json["S_at_" + name] = largest ? finite_or_null(largest->S) : Json();
+  }
   if (in_physical_units(physics, outcome))
     json["physical"] = physical_json(physics, json);
   for (const auto &[quantity, value] : outcome.further)

@@ -593,6 +593,9 @@ BOOST_AUTO_TEST_CASE(geometry_that_cannot_be) {
   BOOST_TEST(message({plane[0], plane[1], "capsule.radius=1.999"}) == "no error");
 
   check_contains(message({"until.x_g=-4"}), "--set:1:11: error: until.x_g = -4 lies upstream of the start");
+  check_contains(message({"until.area_stretch=1"}),
+                 "--set:1:20: error: until.area_stretch = 1 is out of range");
+  check_contains(message({"until.tension=0"}), "--set:1:15: error: until.tension = 0 is out of range");
   check_contains(message({"until.x_g=14.1"}),
                  "--set:1:11: error: at until.x_g = 14.1 the capsule would cross");
   check_contains(message({"output.profiles_at_x_g=[1, 12]"}),

@@ -151,4 +151,59 @@ BOOST_AUTO_TEST_CASE(resistance_where_it_is_asked_for) {
   BOOST_TEST(std::abs(gauge.empty_resistance().value() - 15.9773755) < 3e-6);
 }
 
+// A deformed sphere whose stretches have a closed form: lambda_s = s'(zeta)/a, lambda_phi = r/(a sin zeta), beside their
+// largest values on a dense grid; S = a zeta.
+BOOST_AUTO_TEST_CASE(where_a_membrane_is_strained_most) {
+  const double a = 0.8;
+  const Body b = sphere(a, 48);
+  const Eigen::Index n = b.basis.size();
+  const auto shape = [&](const Eigen::ArrayXd &z) {
+    Eigen::ArrayXXd columns(z.size(), 4); // x, r, and their slopes
+    columns << -a * z.cos() + 0.05 * (2 * z).cos(), a * z.sin() * (1.2 + 0.2 * z.cos()),
+        a * z.sin() - 0.1 * (2 * z).sin(), a * (1.2 * z.cos() + 0.2 * (2 * z).cos());
+    return columns;
+  };
+  Vector position(2 * n);
+  const Eigen::ArrayXXd at_nodes = shape(b.basis.nodes);
+  position << at_nodes.col(0), at_nodes.col(1);
+  const SeriesRow row = b.gauge.row(0, position, Vector::Zero(2 * n));
+  const Eigen::ArrayXd zeta = Eigen::ArrayXd::LinSpaced(200001, 1e-6, pi - 1e-6);
+  const Eigen::ArrayXXd dense = shape(zeta);
+  const Eigen::ArrayXd stretch_s = (dense.col(2).square() + dense.col(3).square()).sqrt() / a;
+  const Eigen::ArrayXd stretch_phi = dense.col(1) / (a * zeta.sin());
+  const Eigen::ArrayXd area = stretch_s * stretch_phi;
+  // Eq. 4, neo-Hookean: T_s = (lambda_s^2 - 1/(lambda_s lambda_phi)^2)/(lambda_s lambda_phi), and s <-> phi.
+  const Eigen::ArrayXd fall = 1 / area.square();
+  const Eigen::ArrayXd tension_s = (stretch_s.square() - fall) / area;
+  const Eigen::ArrayXd tension_phi = (stretch_phi.square() - fall) / area;
+  const Eigen::ArrayXd tension = tension_s.max(tension_phi);
+  Eigen::Index at_area = 0, at_tension = 0;
+  const double largest_area = area.maxCoeff(&at_area), largest_tension = tension.maxCoeff(&at_tension);
+  BOOST_TEST(row.max_area_stretch == largest_area, boost::test_tools::tolerance(1e-8));
+  BOOST_TEST(row.max_tension == largest_tension, boost::test_tools::tolerance(1e-8));
+  BOOST_TEST(std::abs(row.S_at_max_area_stretch - a * zeta[at_area]) < 2e-4);
+  BOOST_TEST(std::abs(row.S_at_max_tension - a * zeta[at_tension]) < 2e-4);
+}
+
+// A parabola in time is met exactly, and a capsule that moves evenly is between its rows at the largest value.
+BOOST_AUTO_TEST_CASE(largest_value_over_the_way) {
+  std::vector<SeriesRow> series(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    SeriesRow &row = series[i];
+    row.time = std::array{0.0, 0.7, 1.1, 2.0}.at(i);
+    row.x_g = 3 + 2 * row.time;
+    row.max_tension = 3 - std::pow(row.time - 0.8, 2);
+    row.S_at_max_tension = static_cast<double>(i);
+  }
+  const auto of = [](const std::vector<SeriesRow> &rows) {
+    return largest_on_the_way(rows, &SeriesRow::max_tension, &SeriesRow::S_at_max_tension);
+  };
+  BOOST_TEST(of(series)->value == 3, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(of(series)->x_g == 4.6, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(of(series)->S == 1);
+  series.resize(2);
+  BOOST_TEST(of(series)->value == series[1].max_tension);
+  BOOST_TEST(!of({}));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

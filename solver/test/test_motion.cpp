@@ -420,4 +420,44 @@ BOOST_AUTO_TEST_CASE(steady_state_under_constant_pressure) {
   BOOST_TEST(outcome.error_estimate.at("flow_rate") < 1e-4);
 }
 
+// A membrane bursts where it comes to what it bears, to the last digits, with the row and the profile of that instant; the
+// march up to there is the one without a limit, and its error estimate knows how far off the place is.
+BOOST_AUTO_TEST_CASE(a_membrane_bursts_where_it_comes_to_what_it_bears) {
+  Case physics = short_entrance();
+  physics.time.tolerance = 1e-8;
+  const Outcome whole = march(physics, {}, {});
+  BOOST_REQUIRE(whole.status == Status::reached);
+  const std::vector<SeriesRow> &rows = whole.last.series;
+  for (const auto &[limit, value] : {std::pair(&UntilSpec::area_stretch, &SeriesRow::max_area_stretch),
+                                     std::pair(&UntilSpec::tension, &SeriesRow::max_tension)}) {
+    const std::size_t middle = rows.size() / 2;
+    const double bears = (rows[middle].*value + rows[middle + 1].*value) / 2;
+    BOOST_REQUIRE(rows[middle].*value < bears);
+    Case weak = physics;
+    weak.until.*limit = bears;
+    const Outcome outcome = march(weak, {}, {});
+    BOOST_TEST((outcome.status == Status::burst));
+    BOOST_TEST(outcome.message.find("bursts") != std::string::npos);
+    const std::vector<SeriesRow> &series = outcome.last.series;
+    BOOST_REQUIRE(series.size() == middle + 2);
+    BOOST_TEST(series[middle].v_g == rows[middle].v_g);
+    BOOST_TEST((series.back().*value) == bears, boost::test_tools::tolerance(1e-11));
+    BOOST_TEST(series.back().time > rows[middle].time);
+    BOOST_TEST(series.back().time < rows[middle + 1].time);
+    BOOST_TEST(outcome.last.profiles.back().time == series.back().time);
+    // The same place by a cubic through the four rows about it.
+    double x_g = 0;
+    for (std::size_t i = middle - 1; i < middle + 3; ++i) {
+      double weight = rows[i].x_g;
+      for (std::size_t k = middle - 1; k < middle + 3; ++k)
+        if (k != i)
+          weight *= (bears - rows[k].*value) / (rows[i].*value - rows[k].*value);
+      x_g += weight;
+    }
+    BOOST_TEST(std::abs(series.back().x_g - x_g) < 1e-4);
+    BOOST_TEST(outcome.error_estimate.at("x_g") > 0);
+    BOOST_TEST(outcome.error_estimate.at("x_g") < 1e-2);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -20,9 +20,10 @@ SeriesRow sound_row() {
 
 // The kind of the failure, or nothing.
 std::string stopped_by(const SeriesRow &row, double roughness_limit = wrinkle_roughness,
-                       bool crossing = false) {
+                       bool crossing = false, bool bursts = false) {
   try {
-    throw_if_stopped({.row = row, .crosses_itself = crossing, .roughness_limit = roughness_limit});
+    throw_if_stopped(
+        {.row = row, .crosses_itself = crossing, .roughness_limit = roughness_limit, .bursts = bursts});
     return "";
   } catch (const NumericsFailure &failure) {
     BOOST_TEST(failure.what() != std::string());
@@ -47,6 +48,7 @@ BOOST_AUTO_TEST_CASE(each_reason_stops_and_nothing_else) {
     BOOST_TEST(stopped_by(row) == "volume");
   }
   row = sound_row();
+  BOOST_TEST(stopped_by(row, wrinkle_roughness, false, true) == "burst");
   row.max_stretch = 4.01;
   BOOST_TEST(stopped_by(row) == "unbounded");
 }
@@ -72,6 +74,7 @@ BOOST_AUTO_TEST_CASE(the_first_reason_is_told) {
   row.dents = 5;
   row.roughness = 0.9;
   BOOST_TEST(stopped_by(row) == "wrinkled");
+  BOOST_TEST(stopped_by(row, wrinkle_roughness, false, true) == "wrinkled");
   row.volume_change = 0.1;
   BOOST_TEST(stopped_by(row) == "volume");
   BOOST_TEST(stopped_by(row, wrinkle_roughness, true) == "self-contact");
@@ -84,6 +87,21 @@ BOOST_AUTO_TEST_CASE(kinds_are_different_words) {
   for (const Stop &stop : stops())
     kinds.insert(stop.kind);
   BOOST_TEST(kinds.size() == stops().size());
+}
+
+BOOST_AUTO_TEST_CASE(what_a_membrane_bears) {
+  const LargestStrain strain{.area_stretch = 1.5, .area_stretch_S = 0, .tension = 0.8, .tension_S = 0};
+  const auto beyond = [&](std::optional<double> area_stretch, std::optional<double> tension) {
+    UntilSpec limits;
+    limits.area_stretch = area_stretch;
+    limits.tension = tension;
+    return beyond_bearing(limits, strain);
+  };
+  BOOST_TEST(beyond({}, {}) < 0);
+  BOOST_TEST(beyond(1.6, 0.9) < 0);
+  BOOST_TEST(beyond(1.5, {}) == 0);
+  BOOST_TEST(beyond(1.6, 0.7) > 0);
+  BOOST_TEST(beyond(1.4, 0.9) > 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
