@@ -33,7 +33,8 @@ BOOST_AUTO_TEST_CASE(marches_that_end_before_they_are_steady_are_remarked) {
   results[2].summary->quantities["x_g"] = 0.81;
   BOOST_TEST(unsteady_remark({results[2]}) != "");
   results[2].input.physics.pore.shape = PoreShape::none;
-  results[2].input.physics.until = {.x_g = {}, .time = 3};
+  results[2].input.physics.until.x_g.reset();
+  results[2].input.physics.until.time = 3;
   BOOST_TEST(unsteady_remark({results[2]}).find("until.time") != std::string::npos);
   results[2].summary.reset(); // interrupted
   BOOST_TEST(unsteady_remark({results[2]}) == "");

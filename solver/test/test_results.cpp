@@ -175,7 +175,8 @@ BOOST_AUTO_TEST_CASE(what_another_input_has_left_is_named) {
   changed.title = "other words";
   BOOST_TEST(other(changed) == "");
   changed.flow.viscosity_ratio = 5;
-  changed.until = {.x_g = {}, .time = 3};
+  changed.until.x_g.reset();
+  changed.until.time = 3;
   BOOST_TEST(other(changed) == "a run with flow.viscosity_ratio = 1, until.x_g = 11.84, no until.time");
   write_results(directory.path, physics, outcome_with(random_checkpoint()), {}, steady);
   BOOST_TEST(other(physics, steady) == "");
