@@ -70,7 +70,8 @@ Outcome march(const Case &input, const Checkpoint &from, const Control &control)
   Control quiet;
   quiet.interrupted = control.interrupted;
   quiet.wants_checkpoint = control.wants_checkpoint;
-  if (control.save)
+  // Of the end a checkpoint has rows and profiles alone: a march that tells more is repeated from before its end.
+  if (control.save && !bursts && outcome.further.empty())
     quiet.save = [&, &finished = outcome](const Checkpoint &coarse) {
       Checkpoint both = finished.last;
       both.companion = {coarse};

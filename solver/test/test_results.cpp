@@ -136,13 +136,21 @@ BOOST_AUTO_TEST_CASE(results_in_physical_units) {
   end.min_film = 0.1;
   end.length = 1.7;
   end.flow_rate = 0.7;
+  end.max_tension = 0.3;
+  end.S_at_max_area_stretch = 0.4;
+  end.S_at_max_tension = 0.5;
   write_results(directory.path, physics, outcome_with(last), {});
   const double velocity = 1e-13 / (std::numbers::pi * 25e-12);
-  const std::map<std::string, double> by_hand = {
-      {"time [s]", 2 * 5e-6 / velocity}, {"x_g [m]", 15e-6},
-      {"v_g [m/s]", 1.5 * velocity},     {"pressure_drop [Pa]", 4 * 1e-3 * velocity / 5e-6},
-      {"min_film [m]", 0.5e-6},          {"length [m]", 8.5e-6},
-      {"flow_rate [m3/s]", 0.7e-13}};
+  const std::map<std::string, double> by_hand = {{"time [s]", 2 * 5e-6 / velocity},
+                                                 {"x_g [m]", 15e-6},
+                                                 {"v_g [m/s]", 1.5 * velocity},
+                                                 {"pressure_drop [Pa]", 4 * 1e-3 * velocity / 5e-6},
+                                                 {"min_film [m]", 0.5e-6},
+                                                 {"length [m]", 8.5e-6},
+                                                 {"flow_rate [m3/s]", 0.7e-13},
+                                                 {"max_tension [N/m]", 0.3 * 2e-5},
+                                                 {"S_at_max_area_stretch [m]", 2e-6},
+                                                 {"S_at_max_tension [m]", 2.5e-6}};
   const auto lines = lines_of(directory.path / "series_physical.csv");
   BOOST_REQUIRE(lines.size() == 6u);
   const auto summary = read_json(directory.path / "summary.json").value().at("physical");
