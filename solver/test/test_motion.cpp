@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(a_march_that_is_interrupted_anywhere_is_the_same) {
       physics.time.step = 4e-3;
       const Outcome whole = march(physics, {}, {});
       BOOST_REQUIRE_MESSAGE((whole.status == Status::reached), whole.message);
-      constexpr int patience = 31;
+      constexpr int patience = 20;
       Checkpoint saved;
       Outcome last;
       int calls = 0;
