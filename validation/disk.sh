@@ -53,7 +53,7 @@ numbers whole >expected
 mkdir disk
 mount -t tmpfs -o size=4k none disk || fail 'mount'
 full=0
-for size in 4k 8k 16k 64k 128k 256k 512k 1m 2m 4m; do
+for size in 4k 8k 16k 64k 128k 256k 512k 1m 2m 4m 8m 16m; do
   mount -o "remount,size=$size" disk || fail 'remount'
   output=$("$capsule" run case.toml --out disk/out --jobs $((full % 2 + 1)) 2>&1) && break
   code=$?
