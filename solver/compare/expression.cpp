@@ -1,5 +1,6 @@
 #include "compare/expression.hpp"
 #include "base/failure.hpp"
+#include "base/text.hpp"
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -296,7 +297,13 @@ private:
     }
     if (at_ == begin)
       fail("a number or a name is missing");
-    return std::stod(std::string(text_.substr(begin, at_ - begin)));
+    const std::string token(text_.substr(begin, at_ - begin));
+    const auto value = to_number(token);
+    if (!value) {
+      at_ = begin;
+      fail(fmt::format("'{}' is not a number", token));
+    }
+    return *value;
   }
 
   std::string_view text_;

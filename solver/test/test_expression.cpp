@@ -103,6 +103,8 @@ BOOST_AUTO_TEST_CASE(mistakes) {
   check_mistake("", "a number or a name is missing at character 1 of ''");
   check_mistake("1 +", "a number or a name is missing at character 4 of '1 +'");
   check_mistake("1 2", "unexpected '2' at character 3 of '1 2'");
+  check_mistake("1 + .", "'.' is not a number at character 5 of '1 + .'");
+  check_mistake("2*1e999", "'1e999' is not a number at character 3 of '2*1e999'");
   check_mistake("(1", "')' is missing at character 3 of '(1'");
   check_mistake("sin(1)", "unknown function 'sin' at character 7 of 'sin(1)'");
   check_mistake("abs(1, 2)", "wrong number of arguments of 'abs' at character 10 of 'abs(1, 2)'");
