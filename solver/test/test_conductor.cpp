@@ -3,6 +3,7 @@
 #include "electric/conductor.hpp"
 #include "folded.hpp"
 #include "scene/resolution.hpp"
+#include "spheroid.hpp"
 #include <boost/math/special_functions/bessel.hpp>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -25,19 +26,13 @@ Pore tube() {
   return make_pore({.shape = PoreShape::tube, .exit_x = 5, .entrance_distance = 5}).value();
 }
 
-Vector spheroid(const MeridianBasis &basis, double x, double half_length, double half_width) {
-  Vector position(2 * basis.size());
-  position << x - half_length * basis.nodes.array().cos(), half_width * basis.nodes.array().sin();
-  return position;
-}
-
 // Capsules on a mesh of so many nodes.
 struct Meter {
   Meter(const Pore &pore, int nodes, const FlowResolution &resolution = fine())
       : conductor(pore, resolution), basis(spectral_basis(nodes)),
         mesh(make_membrane_mesh(basis, resolution)) {}
   double sphere(double x, double radius) const {
-    return conductor.change(mesh, spheroid(basis, x, radius, radius));
+    return conductor.change(mesh, capsule::sphere(basis, x, radius));
   }
   Conductor conductor;
   MeridianBasis basis;

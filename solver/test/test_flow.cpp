@@ -5,6 +5,7 @@
 #include "observe/gauge.hpp"
 #include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"
+#include "spheroid.hpp"
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 
@@ -29,12 +30,6 @@ Case unbounded_case() {
   return physics;
 }
 
-Vector sphere(const MeridianBasis &basis, double a, double centre) {
-  Vector position(2 * basis.size());
-  position << centre - a * basis.nodes.array().cos(), a * basis.nodes.array().sin();
-  return position;
-}
-
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(flow)
@@ -49,7 +44,7 @@ BOOST_AUTO_TEST_CASE(viscous_drop_translates) {
     Case physics = unbounded_case();
     physics.flow.viscosity_ratio = lambda;
     const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
-    const Vector position = sphere(basis, a, 0);
+    const Vector position = sphere(basis, 0, a);
     const Eigen::ArrayXd x = position.head(n);
     const Eigen::ArrayXd r = position.tail(n);
     Vector load(2 * n);
@@ -81,7 +76,7 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_in_a_tube) {
     const MeridianBasis basis = spectral_basis(48);
     const Eigen::Index n = basis.size();
     const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
-    const Vector position = sphere(basis, row.a, 7);
+    const Vector position = sphere(basis, 7, row.a);
     const Interaction interaction = flow.interact(position);
     Recycled recycled, traction;
     const Matrix mobility = flow.mobility(interaction, recycled);
@@ -118,7 +113,7 @@ BOOST_AUTO_TEST_CASE(pressure_drop_by_two_routes) {
       const MeridianBasis basis = spectral_basis(40);
       const Eigen::Index n = basis.size();
       const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
-      const Vector position = sphere(basis, 0.7, x);
+      const Vector position = sphere(basis, x, 0.7);
       Vector load(2 * n); // smooth, with the parities and no resultant
       const Eigen::ArrayXd zeta = basis.nodes;
       load << (2 * zeta).cos() + 1.0 / 3, (zeta.sin() * (1 + zeta.cos()));
@@ -142,7 +137,7 @@ BOOST_AUTO_TEST_CASE(nodes_beside_quadrature_points) {
     const MeridianBasis basis = spectral_basis(nodes);
     const Flow flow =
         make_flow(make_pore(physics.pore), physics.flow, basis, choose_resolution(physics).flow);
-    Vector position = sphere(basis, 0.8, 10);
+    Vector position = sphere(basis, 10, 0.8);
     position.head(nodes).array() += 0.1 * (2 * basis.nodes.array()).cos();
     position.tail(nodes).array() += 1e-6 * (nodes / 2 * basis.nodes.array()).sin();
     const Interaction interaction = flow.interact(position, Layers::both);
@@ -171,7 +166,7 @@ BOOST_AUTO_TEST_CASE(recycling_changes_nothing) {
     const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, resolution);
     Recycled carried, carried_traction;
     for (const int k : {0, 1, 2, 3, 4, 5, 5, 5, 5, 5, 5, 60, 60, 1}) {
-      Vector position = sphere(basis, 0.7, -0.5 + 0.12 * k);
+      Vector position = sphere(basis, -0.5 + 0.12 * k, 0.7);
       position.head(n).array() += 0.02 * (k % 7) * (2 * basis.nodes.array()).cos();
       Vector load(2 * n);
       load << (2 * basis.nodes.array()).cos() + 1.0 / 3 + 0.1 * k,
@@ -194,7 +189,7 @@ BOOST_AUTO_TEST_CASE(recycling_changes_nothing) {
 BOOST_AUTO_TEST_CASE(what_cannot_be_solved_is_a_failure) {
   const MeridianBasis basis = spectral_basis(24);
   const Eigen::Index n = basis.size();
-  const Vector position = sphere(basis, 0.8, 0);
+  const Vector position = sphere(basis, 0, 0.8);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Vector load(2 * n);
   load << (2 * basis.nodes.array()).cos(), basis.nodes.array().sin();
@@ -241,7 +236,7 @@ BOOST_AUTO_TEST_CASE(velocity_around_a_capsule) {
     Vector load(2 * n); // as above
     const Eigen::ArrayXd zeta = basis.nodes;
     load << (2 * zeta).cos() + 1.0 / 3, (zeta.sin() * (1 + zeta.cos()));
-    const Interaction interaction = flow.interact(sphere(basis, 0.7, 5));
+    const Interaction interaction = flow.interact(sphere(basis, 5, 0.7));
     Recycled recycled;
     const FlowState state = flow.solve(interaction, load, recycled);
     const GaussRule rule = gauss_legendre(24);

@@ -1,21 +1,12 @@
 // The paper's estimate of the resistance against closed forms and a plain sum.
 #include "electric/long_conductor.hpp"
 #include "folded.hpp"
+#include "spheroid.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <vector>
 
 using namespace capsule;
-
-namespace {
-
-Vector sphere(const MeridianBasis &basis, double x, double radius) {
-  Vector position(2 * basis.size());
-  position << x - radius * basis.nodes.array().cos(), radius * basis.nodes.array().sin();
-  return position;
-}
-
-} // namespace
 
 BOOST_AUTO_TEST_SUITE(long_conductor)
 

@@ -1,6 +1,7 @@
 // Panels of the membranes, and several membranes as parts of one mesh.
 #include "flow/membrane_mesh.hpp"
 #include "folded.hpp"
+#include "spheroid.hpp"
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -12,12 +13,6 @@ using namespace capsule;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Vector circle(const MeridianBasis &basis, double radius) {
-  Vector position(2 * basis.size());
-  position << -radius * basis.nodes.array().cos(), radius * basis.nodes.array().sin();
-  return position;
-}
 
 } // namespace
 
@@ -74,7 +69,7 @@ BOOST_AUTO_TEST_CASE(joined_membranes_keep_their_values) {
   BOOST_TEST(joined.points == own[0].points + own[1].points);
   Vector position(80);
   for (const std::size_t k : {0, 1})
-    position(joined.rows(k)) = circle(bases[k], k == 0 ? 0.5 : 0.8);
+    position(joined.rows(k)) = sphere(bases[k], 0, k == 0 ? 0.5 : 0.8);
   const MembraneShape shape = shape_at(joined, position);
   const Vector at_panels = joined.at_panels(position);
   // Both radii are those of the circles, everywhere.
