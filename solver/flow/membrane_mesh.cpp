@@ -33,10 +33,9 @@ Vector halved_edges(const MeridianBasis &basis, const Vector &position, const Ve
   constexpr double shortest = 8 * width; // even at a cusp
   const Eigen::Index n = basis.size();
   const Vector zeta = Vector::LinSpaced(points, width / 2, pi - width / 2);
-  const Eigen::ArrayXd x_1 = basis.even(zeta, 1) * position.head(n),
-                       x_2 = basis.even(zeta, 2) * position.head(n);
-  const Eigen::ArrayXd r_1 = basis.odd(zeta, 1) * position.tail(n),
-                       r_2 = basis.odd(zeta, 2) * position.tail(n);
+  const Eigen::ArrayXd x_1 = basis.even(zeta, 1, position.head(n)),
+                       x_2 = basis.even(zeta, 2, position.head(n));
+  const Eigen::ArrayXd r_1 = basis.odd(zeta, 1, position.tail(n)), r_2 = basis.odd(zeta, 2, position.tail(n));
   const Eigen::ArrayXd turning = (x_1 * r_2 - r_1 * x_2).abs() / (x_1.square() + r_1.square()) * width;
   const auto turning_between = [&](double from, double to) {
     const auto place = [&](double at) {

@@ -59,10 +59,6 @@ Maximum maximum(const Vector &f) {
   return top > best ? Maximum{top, sample.index + t} : sample;
 }
 
-double refined_maximum(const Vector &f) {
-  return maximum(f).value;
-}
-
 // The number of stretches of negative kappa_s whose integral over the arc is more than dent_angle.
 int count_dents(const MembraneState &state, double step) {
   int dents = 0;
@@ -121,8 +117,8 @@ Gauge::Gauge(const std::optional<Pore> &pore, const Membrane &membrane,
   Vector points(rule.size() * (fine_.zeta.size() - 1));
   for (Eigen::Index k = 0; k + 1 < fine_.zeta.size(); ++k)
     points.segment(k * rule.size(), rule.size()) = fine_.zeta[k] + step / 2 * (1 + rule.nodes.array());
-  const Vector speed = ((membrane_.basis.even(points, 1) * x).array().square() +
-                        (membrane_.basis.odd(points, 1) * r).array().square())
+  const Vector speed = (membrane_.basis.even(points, 1, x).array().square() +
+                        membrane_.basis.odd(points, 1, r).array().square())
                            .sqrt();
   for (Eigen::Index k = 0; k + 1 < fine_.zeta.size(); ++k)
     arc_from_pole_[k + 1] =
@@ -170,7 +166,7 @@ double Gauge::film(const Vector &position) const {
   for (const Eigen::Index k : {best - 2, best - 1, best + 1, best + 2})
     if (k >= 0 && k < x.size())
       distance[k] = wall_distance(*pore_, x[k], r[k]);
-  return -refined_maximum(-distance);
+  return -maximum(-distance).value;
 }
 
 bool Gauge::crosses_itself(const Vector &position) const {
@@ -244,7 +240,7 @@ SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity
   row.max_radial_velocity = velocity.tail(n).cwiseAbs().maxCoeff();
 
   const MembraneState state = membrane_state(membrane_, fine_, position);
-  row.max_stretch = refined_maximum(state.stretch_meridional);
+  row.max_stretch = maximum(state.stretch_meridional).value;
   const LargestStrain strain = largest_strain(state);
   row.max_area_stretch = strain.area_stretch;
   row.S_at_max_area_stretch = strain.area_stretch_S;
@@ -252,8 +248,8 @@ SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity
   row.S_at_max_tension = strain.tension_S;
   row.front_stretch = state.stretch_meridional[state.stretch_meridional.size() - 1];
   row.min_film = film(position);
-  row.length = refined_maximum(state.x) + refined_maximum(-state.x);
-  const double diameter = 2 * refined_maximum(state.r);
+  row.length = maximum(state.x).value + maximum(-state.x).value;
+  const double diameter = 2 * maximum(state.r).value;
   row.deformation = (row.length - diameter) / (row.length + diameter);
   row.roughness = roughness_of(waves_ * position.head(n));
   row.dents = count_dents(state, fine_.zeta[1] - fine_.zeta[0]);

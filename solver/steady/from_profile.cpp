@@ -27,8 +27,8 @@ Vector interpolated(const Vector &S, const Vector &f, const Vector &at) {
 // Arc length of the undeformed meridian at ascending angles from a pole on, by chords.
 Vector undeformed_arc(const Membrane &membrane, const Vector &zeta) {
   const Eigen::Index n = membrane.basis.size();
-  const Vector x = membrane.basis.even(zeta, 0) * membrane.reference.head(n);
-  const Vector r = membrane.basis.odd(zeta, 0) * membrane.reference.tail(n);
+  const Vector x = membrane.basis.even(zeta, 0, membrane.reference.head(n));
+  const Vector r = membrane.basis.odd(zeta, 0, membrane.reference.tail(n));
   Vector arc = Vector::Zero(zeta.size());
   for (Eigen::Index k = 1; k < zeta.size(); ++k)
     arc[k] = arc[k - 1] + std::hypot(x[k] - x[k - 1], r[k] - r[k - 1]);
