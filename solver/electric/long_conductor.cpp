@@ -1,6 +1,7 @@
 #include "electric/long_conductor.hpp"
 #include "geometry/quadrature.hpp"
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <numbers>
 #include <vector>
 
@@ -21,12 +22,11 @@ double extreme_near(double zeta, const MeridianBasis &basis, const Vector &x) {
 
 // Where x changes its sign between two places.
 double crossing(double low, double high, const MeridianBasis &basis, const Vector &x) {
-  constexpr int halvings = 24; // errors count by their third power
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = (low + high) / 2;
-    (basis.even(Vector::Constant(1, middle), 0, x)[0] < 0 ? low : high) = middle;
-  }
-  return (low + high) / 2;
+  constexpr unsigned digits = 24; // binary: errors count by their third power
+  const auto [before, after] =
+      boost::math::tools::bisect([&](double zeta) { return basis.even(Vector::Constant(1, zeta), 0, x)[0]; },
+                                 low, high, boost::math::tools::eps_tolerance<double>(digits));
+  return (before + after) / 2;
 }
 
 } // namespace

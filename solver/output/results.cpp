@@ -48,6 +48,13 @@ std::vector<fs::path> files_of_run(const fs::path &directory) {
   });
 }
 
+// Puts the files with these names first and last.
+void set_ends(std::vector<fs::path> &files, const char *first, const char *last) {
+  std::ranges::stable_sort(files, {}, [&](const fs::path &file) {
+    return file.filename() == first ? 0 : file.filename() == last ? 2 : 1;
+  });
+}
+
 // A temporary file that a killed process has left of a run's files. Any other may be what another process is writing.
 bool is_left_over(const fs::path &file) {
   return std::ranges::any_of(
@@ -176,9 +183,7 @@ bool is_complete(const fs::path &directory) {
 void remove_results(const fs::path &directory) {
   std::vector<fs::path> files = files_of_run(directory);
   std::ranges::move(files_in(directory, is_left_over), std::back_inserter(files));
-  std::ranges::stable_sort(files, {}, [](const fs::path &file) {
-    return file.filename() == "summary.json" ? 0 : file.filename() == "run.json" ? 2 : 1;
-  });
+  set_ends(files, "summary.json", "run.json");
   for (const fs::path &file : files)
     remove_file(file);
 }
@@ -191,9 +196,7 @@ void share_results(const fs::path &from, const fs::path &to) {
   make_directories(to);
   remove_results(to);
   std::vector<fs::path> files = files_of_run(from);
-  std::ranges::stable_sort(files, {}, [](const fs::path &file) {
-    return file.filename() == "run.json" ? 0 : file.filename() == "summary.json" ? 2 : 1;
-  });
+  set_ends(files, "run.json", "summary.json");
   for (const fs::path &file : files)
     copy_atomically(file, to / file.filename());
 }

@@ -96,6 +96,10 @@ RunOptions run_options(const Arguments &arguments, const CaseInput &input, const
 bool is_interrupted(const RunResult &result) {
   return !result.summary;
 }
+bool has_failed(const RunResult &result) {
+  return result.summary && result.summary->status == "failed";
+}
+
 // The run whose liquid has the largest Reynolds number, if that is not small.
 void warn_of_inertia(const CaseInput &input) {
   const RunInput *fastest = nullptr;
@@ -105,10 +109,6 @@ void warn_of_inertia(const CaseInput &input) {
       fastest = &run;
   if (fastest != nullptr)
     fmt::print(stderr, "warning: {}: {}\n", name_of(*fastest, input), reynolds_text(fastest->physics));
-}
-
-bool has_failed(const RunResult &result) {
-  return result.summary && result.summary->status == "failed";
 }
 
 std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arguments,

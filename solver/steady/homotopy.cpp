@@ -210,6 +210,11 @@ Homotopy in_a_flow(double strength, const Case &target, const Control &control) 
   return homotopy;
 }
 
+// What a fold on the way of growing flow says of the case.
+NumericsFailure no_steady_state(const NumericsFailure &fold) {
+  return {"fold", fmt::format("no steady state: {}", fold.what()), fold.advice};
+}
+
 } // namespace
 
 SteadyState by_homotopy(const Case &input, const Control &control) {
@@ -223,7 +228,7 @@ SteadyState by_homotopy(const Case &input, const Control &control) {
       return homotopy.state();
     } catch (const NumericsFailure &failure) { // it may run away, or buckle on the way: other branches tell
       if (failure.kind == "fold")
-        throw NumericsFailure("fold", fmt::format("no steady state: {}", failure.what()), failure.advice);
+        throw no_steady_state(failure);
     }
   }
   std::optional<NumericsFailure> first;
@@ -237,7 +242,7 @@ SteadyState by_homotopy(const Case &input, const Control &control) {
       return homotopy.state();
     } catch (const NumericsFailure &failure) {
       if (only_flow_is_left && failure.kind == "fold")
-        throw NumericsFailure("fold", fmt::format("no steady state: {}", failure.what()), failure.advice);
+        throw no_steady_state(failure);
       if (!first)
         first = failure;
     }

@@ -1,6 +1,5 @@
 #include "steady/newton.hpp"
 #include "base/failure.hpp"
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
