@@ -9,7 +9,8 @@ struct Case;
 // From the case's own value of the key to `to`, by way of folds if need be. The outcome's branch holds the
 // points, its folds the turning points (slope zero to rounding error of the parameter), its series and
 // profiles the first point, the folds and the last point. Status: reached; unbounded if the membrane stretches
-// beyond runaway_stretch behind a fold, or much further without one; failed. Throws what require_branch throws. The accuracy is at least 1e-6.
+// beyond runaway_stretch behind a fold, or much further without one; failed. Throws what require_branch throws. The
+// accuracy is at least 1e-6.
 Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control);
 
 // Throws InputError unless the key is a number that steady states depend on and `to` is in its range and not

@@ -1,8 +1,8 @@
 #pragma once
 // A case's steady state from nothing. At first the capsule is let loose in the tube, undeformed, with a stiff membrane that
-// is softened then (relaxation.hpp). Where it does not come to rest, branches (continuation.hpp) lead from a small stiff
-// sphere in a weak flow to the case's capsule, one key after the other, the capillary number last. The mesh gets finer on
-// the way where it must.
+// is softened then (relaxation.hpp); if need be in a weaker flow, from which a branch (continuation.hpp) leads to the case's
+// own. Where it does not come to rest at all, branches lead from a small stiff sphere in a weak flow to the case's
+// capsule, one key after the other, the capillary number last. The mesh gets finer on the way where it must.
 #include "observe/outcome.hpp"
 #include "steady/mesh_change.hpp"
 

@@ -45,8 +45,7 @@ void follow(const KeyPath &path, SteadyState &state) {
 } // namespace
 
 std::shared_ptr<SteadySystem> system_on_mesh(const Case &input, const Vector &node_angle) {
-  constexpr double longer =
-      1.3; // than undeformed, which is not known yet: a tube that is too short is built again
+  constexpr double longer = 1.3; // than undeformed; a tube that is too short is built again
   return std::make_shared<SteadySystem>(input, resolution_of(input, static_cast<int>(node_angle.size())),
                                         node_angle, longer * extent(input.capsule).half_length);
 }
