@@ -115,6 +115,21 @@ struct Checks {
             fmt::format("its way goes from {} to {}", number_text(c.capsule.start_x), number_text(last)));
   }
 
+  // Of an inflated sphere; other shapes are near to it.
+  void check_burst() {
+    const Case &c = physics;
+    const double stretch = 1 + c.capsule.inflation;
+    const double tension = tensions(c.membrane.law, stretch, stretch).meridional;
+    if (c.until.area_stretch && stretch * stretch >= *c.until.area_stretch)
+      chosen.complain({"until.area_stretch", "capsule.inflation"},
+                      fmt::format("the area stretch is {:.6g} before the flow", stretch * stretch),
+                      "until.area_stretch must lie above (1 + capsule.inflation)^2");
+    if (c.until.tension && tension >= *c.until.tension)
+      chosen.complain({"until.tension", "capsule.inflation"},
+                      fmt::format("the tension is {:.6g} before the flow", tension),
+                      "until.tension must lie above what capsule.inflation brings about");
+  }
+
   void check(const Task &task) {
     const Case &c = physics;
     check_scheme();
@@ -145,6 +160,7 @@ struct Checks {
       check_start();
       check_end();
     }
+    check_burst();
     for (const double t : c.output.profiles_at_time)
       if (c.until.time && t > *c.until.time)
         chosen.complain({"output.profiles_at_time"},

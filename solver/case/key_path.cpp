@@ -35,6 +35,10 @@ Case with_number(Case input, const std::string &key, double value) {
   return input;
 }
 
+double natural_size(const std::string &key, double value) {
+  return key == "capsule.inflation" ? 1 + value : std::abs(value);
+}
+
 KeyPath::KeyPath(std::string key, const Case &from, double to)
     : key_(std::move(key)), start_(from), from_(number(key_, from)), to_(to) {}
 

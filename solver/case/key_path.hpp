@@ -16,9 +16,12 @@ double number(const std::string &key, const Case &input);
 // The case with another number behind a key, whatever its range.
 Case with_number(Case input, const std::string &key, double value);
 
+// What changes of a key's value are measured by: the value itself, and for the inflation 1 + alpha_p, the stretch.
+double natural_size(const std::string &key, double value);
+
 // A key of a case on its way from the value that it has there, at part 0, to another one, at part 1; further, too.
 // Between positive values the eighth root changes evenly, which suits values of any magnitude, and zero: a way from
-// 1e-2 to 1e-5, or to 0, has no part that needs much shorter steps than the others.
+// 1e-2 to 1e-5, or to 0, has no part that needs much shorter steps than the others. The inflation changes evenly.
 class KeyPath {
 public:
   KeyPath(std::string key, const Case &from, double to);
@@ -30,7 +33,7 @@ public:
   std::string text(double part) const; // "flow.capillary_number = 0.05"
 
 private:
-  bool is_straight() const { return from_ < 0 || to_ < 0; }
+  bool is_straight() const { return from_ < 0 || to_ < 0 || natural_size(key_, 0) > 0; }
   double root(double part) const;
 
   std::string key_;

@@ -28,10 +28,11 @@ struct PoreSpec {
 struct CapsuleSpec {
   double radius = 0;       // R_eq, of the sphere with the same volume
   double aspect_ratio = 1; // A/B
+  double inflation = 0;    // alpha_p: the stress-free shape is smaller by 1/(1 + alpha_p)
   double start_x = -4;
 };
 
-// Of the undeformed capsule, a spheroid: its half axes A along the axis of the pore and B across it.
+// Of the capsule before the flow, a spheroid: its half axes A along the axis of the pore and B across it.
 struct Extent {
   double half_length, half_width;
 };

@@ -2,11 +2,15 @@
 
 namespace capsule {
 
-Vector reference_position(const CapsuleSpec &capsule, const Vector &angle) {
+Vector initial_position(const CapsuleSpec &capsule, const Vector &angle) {
   const auto [half_length, half_width] = extent(capsule);
   Vector position(2 * angle.size());
   position << -half_length * angle.array().cos(), half_width * angle.array().sin();
   return position;
+}
+
+Vector reference_position(const CapsuleSpec &capsule, const Vector &angle) {
+  return initial_position(capsule, angle) / (1 + capsule.inflation);
 }
 
 // From the equator to half way to the upstream pole nodes are denser (at A/B = 0.28 up to 1.8 times), and at the front

@@ -1,13 +1,15 @@
 #pragma once
-// The undeformed capsule, a spheroid centred at x = 0. Its points are told by an angle in [0, pi] from the upstream to
-// the downstream pole: X = -A cos(angle), R = B sin(angle), A and B of extent(). The nodes of a mesh lie at angles that
+// The capsule before the flow, a spheroid centred at x = 0, and its stress-free shape, which is smaller by
+// 1/(1 + alpha_p). Its points are told by an angle in [0, pi] from the upstream to the downstream pole:
+// X = -A cos(angle), R = B sin(angle), A and B of extent(). The nodes of a mesh lie at angles that
 // any smooth odd function of zeta may give: shapes keep their parities and the basis its exponential convergence.
 #include "base/linear_algebra.hpp"
 #include "case/parameters.hpp"
 
 namespace capsule {
 
-// Points at these angles, 2N: axial components, then radial ones.
+// Points at these angles, 2N: axial components, then radial ones. Before the flow, and free of stress.
+Vector initial_position(const CapsuleSpec &capsule, const Vector &angle);
 Vector reference_position(const CapsuleSpec &capsule, const Vector &angle);
 
 // Angles for nodes zeta, denser where the rear of a flat capsule folds. clustering: 0 for angles that are zeta.

@@ -194,6 +194,7 @@ Membrane make_membrane(const CapsuleSpec &capsule, const MembraneSpec &material,
                     .bending_ratio = 0,
                     .basis = basis,
                     .node_angle = basis.nodes,
+                    .initial = {},
                     .reference = {},
                     .sampling = sample(basis, zeta, weights),
                     .undeformed = {},
@@ -205,6 +206,7 @@ Membrane make_membrane(const CapsuleSpec &capsule, const MembraneSpec &material,
 void set_material(const CapsuleSpec &capsule, const MembraneSpec &material, Membrane &membrane) {
   membrane.law = material.law;
   membrane.bending_ratio = material.bending_ratio;
+  membrane.initial = initial_position(capsule, membrane.node_angle);
   membrane.reference = reference_position(capsule, membrane.node_angle);
   membrane.undeformed = undeformed_at(membrane.sampling, membrane.reference);
 }

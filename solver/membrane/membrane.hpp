@@ -20,7 +20,8 @@ struct Membrane {
   double bending_ratio = 0; // delta
   MeridianBasis basis;
   Vector node_angle;             // where the nodes lie on the undeformed shape, reference_shape.hpp
-  Vector reference;              // undeformed position of the nodes, 2N, centred at x = 0
+  Vector initial;                // position of the nodes before the flow, 2N, centred at x = 0
+  Vector reference;              // and free of stress: undeformed
   Sampling sampling;             // where the energy is integrated: no point at a pole
   UndeformedMeridian undeformed; // at the sampling's points
   Sampling at_nodes;             // the nodes themselves, with the basis' weights
@@ -30,7 +31,7 @@ struct Membrane {
 Membrane make_membrane(const CapsuleSpec &capsule, const MembraneSpec &material, const MeridianBasis &basis,
                        const Vector &zeta, const Vector &weights);
 
-// Gives the membrane another law and bending stiffness, and the undeformed shape of a capsule with its nodes at
+// Gives the membrane another law and bending stiffness, and the shapes of a capsule with its nodes at
 // node_angle.
 void set_material(const CapsuleSpec &capsule, const MembraneSpec &material, Membrane &membrane);
 

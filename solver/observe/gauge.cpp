@@ -100,7 +100,7 @@ Gauge::Gauge(const std::optional<Pore> &pore, const Membrane &membrane,
              const std::optional<FlowResolution> &conductor)
     : membrane_(membrane), pore_(pore), panels_(integration_points(membrane.basis)),
       fine_(pole_to_pole(membrane.basis)) {
-  initial_ = integrals(membrane_.reference);
+  initial_ = integrals(membrane_.initial);
   if (pore_ && conductor) {
     const FlowResolution resolution = conductor_resolution(*conductor);
     conductor_.emplace(*pore_, resolution);
@@ -110,8 +110,8 @@ Gauge::Gauge(const std::optional<Pore> &pore, const Membrane &membrane,
 
   // S by Gauss's rule between neighbouring points.
   const GaussRule rule = gauss_legendre(6);
-  const Vector x = membrane_.reference.head(membrane_.basis.size());
-  const Vector r = membrane_.reference.tail(membrane_.basis.size());
+  const Vector x = membrane_.initial.head(membrane_.basis.size());
+  const Vector r = membrane_.initial.tail(membrane_.basis.size());
   arc_from_pole_ = Vector::Zero(fine_.zeta.size());
   const double step = fine_.zeta[1] - fine_.zeta[0];
   Vector points(rule.size() * (fine_.zeta.size() - 1));

@@ -33,7 +33,7 @@ struct PaperLoad {
   Matrix even_coefficients; // (N+3) x (N+1), from nodal values: first derivative zero at both ends
   Matrix odd_coefficients;  // second derivative zero
   MeridianSpline
-      reference; // through the nodes of the ellipse, so that the undeformed capsule is free of load
+      reference; // through the nodes of the stress-free ellipse, so that the undeformed capsule is free of load
 };
 PaperLoad make_paper_load(const CapsuleSpec &capsule, const MembraneSpec &material, int elements);
 

@@ -17,7 +17,7 @@ Membrane paper_membrane(const Case &physics) {
 }
 
 Vector start_position(const Membrane &membrane, double start_x) {
-  Vector start = membrane.reference;
+  Vector start = membrane.initial;
   start.head(membrane.basis.size()).array() += start_x;
   return start;
 }

@@ -24,11 +24,11 @@ Vector interpolated(const Vector &S, const Vector &f, const Vector &at) {
   return result;
 }
 
-// Arc length of the undeformed meridian at ascending angles from a pole on, by chords.
-Vector undeformed_arc(const Membrane &membrane, const Vector &zeta) {
+// Arc length of the meridian before the flow at ascending angles from a pole on, by chords.
+Vector initial_arc(const Membrane &membrane, const Vector &zeta) {
   const Eigen::Index n = membrane.basis.size();
-  const Vector x = membrane.basis.even(zeta, 0, membrane.reference.head(n));
-  const Vector r = membrane.basis.odd(zeta, 0, membrane.reference.tail(n));
+  const Vector x = membrane.basis.even(zeta, 0, membrane.initial.head(n));
+  const Vector r = membrane.basis.odd(zeta, 0, membrane.initial.tail(n));
   Vector arc = Vector::Zero(zeta.size());
   for (Eigen::Index k = 1; k < zeta.size(); ++k)
     arc[k] = arc[k - 1] + std::hypot(x[k] - x[k - 1], r[k] - r[k - 1]);
@@ -41,7 +41,7 @@ Vector fine_angles(const Membrane &membrane) {
 }
 
 // Where no way has led from a profile to rest: whether that is because it is of another capsule. Its volume and its
-// undeformed meridian tell, whatever its shape.
+// meridian before the flow tell, whatever its shape.
 void require_same_capsule(const Profile &profile, const Membrane &membrane, double radius) {
   constexpr double same = 0.01;
   const Eigen::Index rest = profile.S.size() - 1;
@@ -49,7 +49,7 @@ void require_same_capsule(const Profile &profile, const Membrane &membrane, doub
       (profile.x.tail(rest) - profile.x.head(rest)).array() *
       (profile.r.tail(rest).array().square() + profile.r.head(rest).array().square()) / 2;
   const double of_profile = std::cbrt(0.75 * slices.sum()); // from pi r^2 dx = 4/3 pi R^3
-  const double meridian = undeformed_arc(membrane, fine_angles(membrane)).tail(1).value();
+  const double meridian = initial_arc(membrane, fine_angles(membrane)).tail(1).value();
   const double meridian_of_profile = profile.S[rest] - profile.S[0];
   std::string differ;
   if (!(std::abs(of_profile / radius - 1) < same))
@@ -66,7 +66,7 @@ Vector unknowns_of(const Profile &profile, const Membrane &membrane) {
   const Eigen::Index n = membrane.basis.size();
   if (profile.S.size() < 4)
     throw InputError("error: a profile of at least four points is needed to begin with\n");
-  const Vector zeta = fine_angles(membrane), arc = undeformed_arc(membrane, zeta);
+  const Vector zeta = fine_angles(membrane), arc = initial_arc(membrane, zeta);
   const Vector S = interpolated(zeta, arc, membrane.basis.nodes) *
                    ((profile.S[profile.S.size() - 1] - profile.S[0]) / arc[zeta.size() - 1]);
   Vector unknowns = Vector::Zero(2 * n + 2);

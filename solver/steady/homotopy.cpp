@@ -156,7 +156,7 @@ Homotopy from_a_stiff_sphere(const Case &target, const Control &control) {
   if (target.pore.shape != PoreShape::none)
     begin.capsule.radius = std::min(small_radius, target.capsule.radius);
   const auto system = first_system(begin);
-  return {target, begin, {system, solve_steady(*system, system->undeformed())}, control};
+  return {target, begin, {system, solve_steady(*system, system->initial())}, control};
 }
 
 // The capsule itself, but for a stiff membrane, let loose in the tube: undeformed, or squeezed if it is wider than that.
@@ -167,7 +167,7 @@ SteadyState by_relaxation(const Case &target, const Control &control) {
   double &bending = now.membrane.bending_ratio;
   bending = std::max(bending_to_relax, bending);
   SteadyState state{first_system(now), {}};
-  Vector shape = state.system->undeformed();
+  Vector shape = state.system->initial();
   if (state.system->pore()) {
     const Eigen::Index n = state.system->nodes();
     const double squeeze = std::min(1.0, widest / shape.segment(n, n).maxCoeff());

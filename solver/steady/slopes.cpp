@@ -3,17 +3,26 @@
 #include <cmath>
 
 namespace capsule {
+namespace {
+
+constexpr double relative_step = 1e-3;
+
+double step_of(const std::string &key, double value) {
+  const double size = natural_size(key, value);
+  return relative_step * (size == 0 ? 1 : size);
+}
+
+} // namespace
 
 Matrix slopes(SteadySystem &system, const Vector &unknowns, const SteadySystem::Linearisation &linear,
               std::span<const std::string> keys) {
-  constexpr double relative_step = 1e-3;
   const Eigen::Index n2 = 2 * system.nodes();
   const Case here = system.input();
   Matrix result(n2 + 2, std::ssize(keys));
   for (Eigen::Index k = 0; k < result.cols(); ++k) {
     const std::string &key = keys[static_cast<std::size_t>(k)];
     const double value = number(key, here);
-    const double h = relative_step * (value == 0 ? 1 : std::abs(value));
+    const double h = step_of(key, value);
     const auto at = [&](double steps) {
       system.set_parameters(with_number(here, key, value + steps * h));
       return system.load_and_constraints(unknowns);

@@ -43,14 +43,14 @@ void SteadySystem::build_flow() {
 void SteadySystem::set_parameters(const Case &input) {
   input_ = input;
   set_material(input.capsule, input.membrane, membrane_);
-  centre_weights_ = nodal_area(membrane_, membrane_.reference);
+  centre_weights_ = nodal_area(membrane_, membrane_.initial);
   centre_weights_ /= centre_weights_.sum();
   volume_ = 4 * pi / 3 * std::pow(input.capsule.radius, 3);
 }
 
-Vector SteadySystem::undeformed() const {
+Vector SteadySystem::initial() const {
   Vector unknowns = Vector::Zero(2 * nodes() + 2);
-  unknowns.head(2 * nodes()) = membrane_.reference;
+  unknowns.head(2 * nodes()) = membrane_.initial;
   if (pore_)
     unknowns[2 * nodes()] = 2 - 4.0 / 3 * std::pow(std::min(input_.capsule.radius, 0.8), 2);
   return unknowns;

@@ -2,8 +2,8 @@
 // The equations of a steady shape on one mesh. In the capsule's frame the membrane is at rest: every node
 // moves with the speed V along the axis, whatever the viscosity ratio, so the flow is that of lambda = 1.
 //   unknowns   2N + 2: the nodes' axial and radial positions, V, and a slack
-//   equations  v_x - V + slack n_x = 0, v_r + slack n_r = 0 at the nodes; centre of the undeformed area
-//   at x = 0, the same on any mesh; volume = undeformed
+//   equations  v_x - V + slack n_x = 0, v_r + slack n_r = 0 at the nodes; centre of the area before
+//   the flow at x = 0, the same on any mesh; volume as before the flow
 // The flux of v - V through the membrane vanishes identically, so that one equation of the nodes follows from the
 // others. The slack makes up for it; its value is the error of discretisation. A hyperbolic pore is replaced by its
 // tube, which is infinitely long in effect: the disturbance falls by exp(-4.47) per radius of the tube, and the wall is
@@ -27,7 +27,7 @@ public:
   const Case &input() const { return input_; }
 
   Eigen::Index nodes() const { return membrane_.basis.size(); }
-  Vector undeformed() const; // unknowns of the undeformed capsule, at about the speed of a rigid sphere
+  Vector initial() const; // unknowns of the capsule before the flow, at about the speed of a rigid sphere
   const Membrane &membrane() const { return membrane_; }
   const Resolution &resolution() const { return resolution_; }
   double largest_stretch(const Vector &unknowns) const;     // meridional, at the nodes

@@ -596,6 +596,9 @@ BOOST_AUTO_TEST_CASE(geometry_that_cannot_be) {
   check_contains(message({"until.area_stretch=1"}),
                  "--set:1:20: error: until.area_stretch = 1 is out of range");
   check_contains(message({"until.tension=0"}), "--set:1:15: error: until.tension = 0 is out of range");
+  check_contains(message({"until.area_stretch=1.1", "capsule.inflation=0.05"}),
+                 "--set:1:20: error: the area stretch is 1.1025 before the flow");
+  check_contains(message({"until.tension=0.05", "capsule.inflation=0.05"}), "before the flow");
   check_contains(message({"until.x_g=14.1"}),
                  "--set:1:11: error: at until.x_g = 14.1 the capsule would cross");
   check_contains(message({"output.profiles_at_x_g=[1, 12]"}),

@@ -160,4 +160,19 @@ BOOST_AUTO_TEST_CASE(jacobians_are_the_load_s) {
   }
 }
 
+// Laplace's law, p = 2 T_0/a: the bending moments of a sphere vanish at any size. 2 T_0/G by hand, for 5 %.
+BOOST_AUTO_TEST_CASE(an_inflated_sphere_rests_under_its_pressure) {
+  struct Row {
+    MembraneLaw law;
+    double pressure;
+  };
+  for (const Row &row : {Row{neo_hookean, 0.5075692}, Row{{skalak, {1}}, 0.6801913}}) {
+    Case physics = capsule_case(0.9, 1, row.law, 1e-2);
+    physics.capsule.inflation = 0.05;
+    const Membrane membrane = spectral_membrane(physics, 24);
+    const Vector normal = membrane.initial / 0.9;
+    BOOST_TEST(largest(membrane_load(membrane, membrane.initial) + row.pressure / 0.9 * normal) < 1e-7);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

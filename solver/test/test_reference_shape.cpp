@@ -28,6 +28,19 @@ BOOST_AUTO_TEST_CASE(a_spheroid_has_the_volume_of_its_sphere) {
   }
 }
 
+// Spheroids scale alike: before the flow they have the radius that the case says.
+BOOST_AUTO_TEST_CASE(the_stress_free_shape_of_an_inflated_capsule_is_smaller) {
+  const CapsuleSpec capsule{.radius = 0.9, .aspect_ratio = 0.7}, inflated{0.9, 0.7, 0.05};
+  const Vector angle = Vector::LinSpaced(9, 0, pi);
+  BOOST_TEST((initial_position(inflated, angle) - initial_position(capsule, angle)).cwiseAbs().maxCoeff() ==
+             0);
+  BOOST_TEST((reference_position(capsule, angle) - initial_position(capsule, angle)).cwiseAbs().maxCoeff() ==
+             0);
+  BOOST_TEST(
+      (1.05 * reference_position(inflated, angle) - initial_position(inflated, angle)).cwiseAbs().maxCoeff() <
+      1e-15);
+}
+
 // Between a quarter and half of the meridian 1.8 times as dense as even nodes, at the front pole 1.7 times less dense.
 BOOST_AUTO_TEST_CASE(clustered_angles_ascend_and_are_denser_at_the_rear) {
   const Vector zeta = Vector::LinSpaced(401, 0, pi);

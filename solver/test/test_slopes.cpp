@@ -42,7 +42,7 @@ Case extension_case() {
 Vector some_unknowns(SteadySystem &system) {
   const Eigen::Index n = system.nodes();
   const auto zeta = system.membrane().basis.nodes.array();
-  Vector unknowns = system.undeformed();
+  Vector unknowns = system.initial();
   unknowns.head(n).array() += 0.02 * (3 * zeta).cos() + 0.03 * (2 * zeta).cos();
   unknowns.segment(n, n).array() += 0.02 * zeta.sin() - 0.01 * (4 * zeta).sin();
   system.fit_tube(unknowns);
@@ -117,6 +117,8 @@ BOOST_AUTO_TEST_CASE(differences_of_the_residual) {
       check_slope(*system, with_number(input, "membrane.dilatation", dilatation), unknowns,
                   "membrane.dilatation");
     }
+    for (const double inflation : {0.0, 1e-7, 0.05})
+      check_slope(*system, with_number(input, "capsule.inflation", inflation), unknowns, "capsule.inflation");
     Case other = input;
     other.membrane.law = {mooney_rivlin, {0.3}};
     check_slope(*system, other, unknowns, "membrane.psi");
