@@ -1,5 +1,6 @@
 #include "flow/flow.hpp"
 #include "base/failure.hpp"
+#include "flow/layer_identities.hpp"
 #include "flow/reciprocal.hpp"
 #include <stdexcept>
 #include <utility>
@@ -61,26 +62,33 @@ Matrix Flow::membrane_operator(const Matrix &double_layer) const {
   return matrix;
 }
 
-// The same applied to a velocity.
-Vector Flow::apply_membrane_operator(const Interaction &interaction, const Vector &velocity) const {
-  const Vector density = double_density(velocity);
-  return beta_.cwiseProduct(velocity) - interaction.double_layer(density) +
-         interaction.answer_of_wall(interaction.double_at_wall(density));
-}
-
 // right is the velocity without what v does and without the wall, at_wall what is on the wall without v: the
-// wall's answer to both is found at once.
-Vector Flow::membrane_velocity(const Interaction &interaction, const Vector &right, const Vector &at_wall,
+// wall's answer to both is found at once. What v does is added to at_wall.
+Vector Flow::membrane_velocity(const Interaction &interaction, const Vector &right, Vector &at_wall,
                                Recycled &recycled) const {
-  return solve_recycled(
+  const LayerIdentities identities = layer_identities(mesh_, interaction.shape());
+  const auto relative_density = [&](const Vector &velocity) {
+    const Vector density = double_density(velocity);
+    return Vector(density - identities.whole_motion(density));
+  };
+  const auto residual = [&](const Vector &known, const Vector &known_at_wall, const Vector &velocity) {
+    const Vector density = double_density(velocity);
+    const Vector relative = relative_density(velocity);
+    const Vector made = known + 0.5 * (density - relative) + interaction.double_layer(relative) -
+                        interaction.answer_of_wall(known_at_wall + interaction.double_at_wall(relative));
+    return Vector(identities.with_flux(made, density) - beta_.cwiseProduct(velocity));
+  };
+  const Vector nothing = Vector::Zero(right.size()), nothing_at_wall = Vector::Zero(at_wall.size());
+  const Vector velocity = identities.without_flux(solve_recycled(
       interaction.shape().position, solver_tolerance_, recycled,
-      [&](const Vector &velocity) {
-        const Vector density = double_density(velocity);
-        return Vector(right + interaction.double_layer(density) - beta_.cwiseProduct(velocity) -
-                      interaction.answer_of_wall(at_wall + interaction.double_at_wall(density)));
-      },
-      [&](const Vector &velocity) { return apply_membrane_operator(interaction, velocity); },
-      [&] { return membrane_operator(double_with_wall(interaction, interaction.answer_of_wall())); });
+      [&](const Vector &guess) { return residual(right, at_wall, guess); },
+      [&](const Vector &direction) { return Vector(-residual(nothing, nothing_at_wall, direction)); },
+      [&] {
+        return membrane_operator(
+            identities.double_layer(double_with_wall(interaction, interaction.answer_of_wall())));
+      }));
+  at_wall += interaction.double_at_wall(relative_density(velocity));
+  return velocity;
 }
 
 FlowState Flow::solve(const Interaction &interaction, const Vector &f, Recycled &recycled) const {
@@ -92,7 +100,6 @@ FlowState Flow::solve(const Interaction &interaction, const Vector &f, Recycled 
     state.velocity -= interaction.answer_of_wall(at_wall);
   } else {
     state.velocity = membrane_velocity(interaction, state.velocity, at_wall, recycled);
-    at_wall += interaction.double_at_wall(double_density(state.velocity));
   }
   if (!state.velocity.allFinite())
     throw NumericsFailure("not-a-number", "the membrane's velocity is not a number",
@@ -110,8 +117,11 @@ double Flow::reciprocal_pressure_drop(const Interaction &interaction, const Vect
 
 Vector Flow::outer_velocity(const Targets &points, const Interaction &interaction, const Vector &f,
                             const FlowState &state) const {
+  Vector density = double_density(state.velocity);
+  if (density.size() > 0) // a membrane's motion as a whole has no layer outside
+    density -= layer_identities(mesh_, interaction.shape()).whole_motion(density);
   return state.flow_rate * wall_.base_velocity(points) +
-         interaction.velocity_at(points, stokeslet_factor * f, double_density(state.velocity));
+         interaction.velocity_at(points, stokeslet_factor * f, density);
 }
 
 Matrix Flow::mobility(const Interaction &interaction, Recycled &recycled) const {
@@ -119,8 +129,10 @@ Matrix Flow::mobility(const Interaction &interaction, Recycled &recycled) const 
   Matrix single = single_with_wall(interaction, answer);
   if (equal_viscosities_)
     return single;
-  recycled.inverse = inverse_of(membrane_operator(double_with_wall(interaction, answer)));
-  return recycled.inverse * single;
+  const LayerIdentities identities = layer_identities(mesh_, interaction.shape());
+  recycled.inverse =
+      inverse_of(membrane_operator(identities.double_layer(double_with_wall(interaction, answer))));
+  return recycled.inverse * identities.without_flux(single);
 }
 
 } // namespace capsule

@@ -58,8 +58,7 @@ public:
 private:
   Vector double_density(const Vector &velocity) const;
   Matrix membrane_operator(const Matrix &double_layer) const;
-  Vector apply_membrane_operator(const Interaction &interaction, const Vector &velocity) const;
-  Vector membrane_velocity(const Interaction &interaction, const Vector &right, const Vector &at_wall,
+  Vector membrane_velocity(const Interaction &interaction, const Vector &right, Vector &at_wall,
                            Recycled &recycled) const;
 
   Wall wall_;

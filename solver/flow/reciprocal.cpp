@@ -1,26 +1,13 @@
 #include "flow/reciprocal.hpp"
+#include "flow/layer_identities.hpp"
 
 namespace capsule {
 namespace {
 
-// The normals of each membrane, a column each.
-Matrix normals_of(const Interaction &interaction) {
-  const MembraneMesh &mesh = interaction.mesh();
-  const Curve &nodes = interaction.shape().nodes;
-  Matrix normals = Matrix::Zero(2 * mesh.nodes, std::ssize(mesh.parts));
-  for (Eigen::Index k = 0; k < normals.cols(); ++k) {
-    const MembraneMesh::Part &part = mesh.parts[static_cast<std::size_t>(k)];
-    const Eigen::Index first = part.first_node, n = part.nodes();
-    normals.col(k).segment(first, n) = nodes.normal_x.segment(first, n);
-    normals.col(k).segment(mesh.nodes + first, n) = nodes.normal_r.segment(first, n);
-  }
-  return normals;
-}
-
 // sigma_e n from v_e on the membranes: v_e/2 = S t/(8 pi) + D v_e inside. In each membrane t is free up to a
 // pressure; the one chosen makes int t.n dA vanish.
 Vector base_traction(const Interaction &interaction, double tolerance, Recycled &recycled) {
-  const Matrix normals = normals_of(interaction);
+  const Matrix normals = normals_of(interaction.mesh(), interaction.shape());
   const Matrix weighted = interaction.shape().nodes.area.replicate(2, 1).asDiagonal() * normals;
   const Vector &velocity = interaction.base_velocity();
   const Vector known = 0.5 * velocity - interaction.double_layer(velocity);

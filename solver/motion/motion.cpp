@@ -33,9 +33,16 @@ Outcome march_to_end(const Case &input, const Checkpoint &from, const Control &c
   return outcome;
 }
 
-// The march that is asked for, and the input that it ended with. Wrinkles on a mesh that was chosen from the accuracy may
-// be the mesh's own, and buckles amplify errors: then the march begins again, once, on a finer mesh and with shorter
-// steps, and what it shows there is believed.
+// Failures that may be the mesh's own.
+bool may_pass_on_finer_mesh(const Outcome &outcome) {
+  return outcome.status == Status::failed &&
+         (outcome.failure == "wrinkled" || outcome.failure == "touching" || outcome.failure == "unresolved" ||
+          outcome.failure == "step");
+}
+
+// The march that is asked for, and the input that it ended with. What fails on a mesh that was chosen from the accuracy
+// may fail through that mesh, and buckles amplify errors: then the march begins again, once, on a finer mesh and with
+// shorter steps, and what it shows there is believed.
 struct MainMarch {
   Case input;
   Outcome outcome;
@@ -52,7 +59,7 @@ MainMarch main_march(const Case &input, const Checkpoint &from, const Control &c
   const bool is_on_finer = from.position.size() == Eigen::Index{2} * finer.mesh.membrane;
   if (!is_on_finer) {
     Outcome outcome = march_to_end(input, from, control, wrinkle_roughness_on_chosen_nodes(input.accuracy));
-    if (outcome.failure != "wrinkled")
+    if (!may_pass_on_finer_mesh(outcome))
       return {input, std::move(outcome)};
   }
   Outcome outcome = march_to_end(finer, is_on_finer ? from : Checkpoint{}, control);

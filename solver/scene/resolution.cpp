@@ -9,16 +9,18 @@ namespace capsule {
 Resolution choose_resolution(const Case &physics) {
   const double digits = -std::log10(physics.accuracy);
   const double aspect = physics.capsule.aspect_ratio;
-  // The rim of a flat spheroid folds more sharply than any part of a sphere, and one that is wider than the
-  // tube rides closer to the wall: over panels that are too long the pressure drop oscillates.
-  const double flatness = std::max(1.0, 1 / aspect);
+  // The rim of a flat spheroid folds more sharply than any part of a sphere, as does the rear of a long one. One that is
+  // wider than the tube rides closer to the wall: over panels that are too long the pressure drop oscillates.
+  const double elongation = std::max(aspect, 1 / aspect);
+  // A thin inner liquid lets the rear fold in more quickly and more sharply.
+  const double thin_liquid = 1 + 0.5 * std::clamp(-std::log10(physics.flow.viscosity_ratio), 0.0, 1.0);
   const bool tight = extent(physics.capsule).half_width > 0.95;
   Resolution resolution;
   resolution.membrane_nodes =
       physics.mesh.membrane > 0
           ? physics.mesh.membrane
           : static_cast<int>(std::lround((20 - 5.5 * std::max(0.0, 1 - aspect)) * std::max(digits, 2.8) *
-                                         std::pow(flatness, 0.72)));
+                                         std::pow(elongation, 0.72) * thin_liquid));
   if (physics.flow.type == FlowType::pore) // an extension folds no rear
     resolution.clustering = std::max(0.0, 1 - aspect);
   const int nodes = resolution.membrane_nodes;
