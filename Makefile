@@ -7,11 +7,12 @@
 SHELL := /bin/bash
 
 .DEFAULT_GOAL := build
-.PHONY: help setup configure build figures tables report atlas sweep sweep-case test bench paper-numerics lint sanitize fuzz coverage clean
+.PHONY: help setup setup-all configure build figures tables report atlas sweep sweep-case test bench paper-numerics lint sanitize fuzz coverage clean
 
 help:
 	@echo 'make [build]         build the solver, build/capsule'
 	@echo 'make setup           install the Debian packages of apt.txt that are missing'
+	@echo 'make setup-all       install those of apt-all.txt, too, without which some tests are skipped'
 	@echo 'make figures         compute every case, draw every figure and write every table'
 	@echo 'make tables          compute every case and write every table'
 	@echo 'make report          figures and tables, and report.html: all of it on one page, with a player'
@@ -26,9 +27,11 @@ help:
 	@echo 'make paper-numerics  compute Tables 1 and 3 again with the numerics of the paper: an hour or more'
 	@echo 'make clean           remove what was built, computed and drawn'
 
-setup:
+setup: PACKAGES = apt.txt
+setup-all: PACKAGES = apt.txt apt-all.txt
+setup setup-all:
 	@missing=(); \
-	for package in $$(sed 's/#.*//' apt.txt); do \
+	for package in $$(sed 's/#.*//' $(PACKAGES)); do \
 	  dpkg -s $$package 2>/dev/null | grep -q '^Status: install ok installed' || missing+=($$package); \
 	done; \
 	if (( $${#missing[@]} )); then \
