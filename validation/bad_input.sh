@@ -71,6 +71,13 @@ echo "$good
 capsule.start_x = 0" | sed 's/0.9/1.1/' | bad "4:19: error: capsule larger than the pore's entrance at its start"
 echo "$good
 until.x_g = 14.5" | bad '4:13: error: at until.x_g = 14.5 the capsule would cross the exit section'
+two_mouths='pore.shape = "two-mouths"'
+printf '%s\n%s\ncapsule.start_x = 16\n' "$good" "$two_mouths" |
+  bad '5:19: error: the capsule starts behind the pore, at x = 16'
+printf '%s\n%s\nuntil.x_g = 24.5\n' "$good" "$two_mouths" |
+  bad '5:13: error: at until.x_g = 24.5 the capsule would cross the end of its way'
+printf '%s\n%s\npore.entrance_distance = 8\n' "$good" "$two_mouths" |
+  bad '5:26: error: reservoirs of 8 radii are too short for two mouths'
 echo "$good
 [sweep]
 \"flow.viscosity\" = [1, 2]" | bad "5:1: error: unknown key 'flow.viscosity' in sweep"

@@ -61,6 +61,17 @@ struct Checks {
       chosen.complain({"flow.type"}, "an extension needs until.time");
   }
 
+  // Room for the cap that the flow rate is measured through, and for a capsule before it.
+  void check_reservoirs() {
+    constexpr double shortest = 10;
+    const PoreSpec &pore = physics.pore;
+    if (pore.shape == PoreShape::two_mouths && pore.entrance_distance < shortest)
+      chosen.complain({"pore.entrance_distance", "pore.shape"},
+                      fmt::format("reservoirs of {} radii are too short for two mouths",
+                                  number_text(pore.entrance_distance)),
+                      fmt::format("try a pore.entrance_distance of {} or more", number_text(shortest)));
+  }
+
   // The undeformed capsule between the two end sections and inside the wall of eq. 1.
   void check_start() {
     const Case &c = physics;
@@ -73,23 +84,32 @@ struct Checks {
           {"capsule.start_x", "pore.entrance_distance", "capsule.radius"},
           fmt::format("capsule outside the reservoir: it begins at x = {:.4g}", back),
           fmt::format("the entrance section is at x = {}", number_text(-c.pore.entrance_distance)));
-    if (front >= c.pore.exit_x)
+    if (c.pore.shape == PoreShape::two_mouths && x_0 > c.pore.exit_x)
+      chosen.complain({"capsule.start_x", "pore.exit_x"},
+                      fmt::format("the capsule starts behind the pore, at x = {}", number_text(x_0)),
+                      fmt::format("the second mouth is at x = {}", number_text(c.pore.exit_x)));
+    else if (front >= end_of_way(c.pore))
       chosen.complain({"capsule.start_x", "pore.exit_x", "capsule.radius"},
                       fmt::format("capsule beyond the exit: it ends at x = {:.4g}", front),
                       fmt::format("the exit section is at x = {}", number_text(c.pore.exit_x)));
 
-    // r_w^2 - r^2 along the capsule is a parabola on each side of x = 0.
+    // r_w^2 - r^2 along the capsule is a parabola on each side of a lip.
     const double slope = std::pow(half_width / half_length, 2);
     const double opening = c.pore.shape == PoreShape::tube
                                ? 0
                                : std::pow(std::tan(c.pore.opening_angle_deg * std::numbers::pi / 180), 2);
-    const auto smallest = [&](double from, double to, double growth) {
-      const double x = std::clamp(x_0 * slope / (growth + slope), from, to);
-      return 1 - half_width * half_width + growth * x * x + slope * (x - x_0) * (x - x_0);
+    const auto smallest = [&](double centre, double from, double to, double growth) {
+      const double x = std::clamp(centre * slope / (growth + slope), from, to);
+      return 1 - half_width * half_width + growth * x * x + slope * (x - centre) * (x - centre);
     };
-    const bool upstream = back < 0 && smallest(back, std::min(front, 0.0), opening) <= 0;
-    const bool downstream = front > 0 && smallest(std::max(back, 0.0), front, 0) <= 0;
-    if (upstream || downstream)
+    const auto outside = [&](double centre) { // of the lip at x = 0, on the side of negative x
+      return centre < half_length &&
+             smallest(centre, centre - half_length, std::min(centre + half_length, 0.0), opening) <= 0;
+    };
+    const bool behind = c.pore.shape == PoreShape::two_mouths && outside(c.pore.exit_x - x_0);
+    const bool inside = front > 0 && back < c.pore.exit_x &&
+                        smallest(x_0, std::max(back, 0.0), std::min(front, c.pore.exit_x), 0) <= 0;
+    if (outside(x_0) || behind || inside)
       chosen.complain({"capsule.start_x", "capsule.radius"},
                       "capsule larger than the pore's entrance at its start",
                       fmt::format("its largest radius is {:.4g} at x = {}; the tube's is 1 from x = 0 on",
@@ -102,12 +122,17 @@ struct Checks {
       chosen.complain({"until.x_g", "capsule.start_x"},
                       fmt::format("until.x_g = {} lies upstream of the start", number_text(*c.until.x_g)),
                       fmt::format("capsule.start_x is {}", number_text(c.capsule.start_x)));
-    if (c.until.x_g && *c.until.x_g + extent(c.capsule).half_length >= c.pore.exit_x)
-      chosen.complain({"until.x_g", "pore.exit_x", "capsule.radius"},
-                      fmt::format("at until.x_g = {} the capsule would cross the exit section",
-                                  number_text(*c.until.x_g)),
-                      fmt::format("pore.exit_x is {}", number_text(c.pore.exit_x)));
-    const double last = c.until.x_g.value_or(c.pore.exit_x);
+    const double end = end_of_way(c.pore);
+    if (c.until.x_g && *c.until.x_g + extent(c.capsule).half_length >= end)
+      chosen.complain(
+          {"until.x_g", "pore.exit_x", "capsule.radius"},
+          fmt::format("at until.x_g = {} the capsule would cross {}", number_text(*c.until.x_g),
+                      c.pore.shape == PoreShape::two_mouths ? "the end of its way" : "the exit section"),
+          c.pore.shape == PoreShape::two_mouths
+              ? fmt::format("that is x = {}: pore.exit_x and a third of pore.entrance_distance, at most 10",
+                            number_text(end))
+              : fmt::format("pore.exit_x is {}", number_text(end)));
+    const double last = c.until.x_g.value_or(end);
     for (const double x : c.output.profiles_at_x_g)
       if (x < c.capsule.start_x || x > last)
         chosen.complain(
@@ -137,6 +162,9 @@ struct Checks {
     if (!task.motion && c.numerics == Numerics::paper)
       chosen.complain({"numerics"}, "numerics = \"paper\" only marches in time",
                       "steady states need numerics = \"standard\"");
+    if (!task.motion && c.pore.shape == PoreShape::two_mouths)
+      chosen.complain({"pore.shape"}, "there is no steady state in a pore of finite length",
+                      "steady states are those of its tube, infinitely long: pore.shape = \"tube\"");
     if (!task.motion && c.flow.drive == DriveBy::pressure)
       chosen.complain(
           {"flow.drive"}, "steady states are computed at a given flow rate",
@@ -157,6 +185,7 @@ struct Checks {
     if (c.flow.type == FlowType::extension) {
       check_end_of_extension();
     } else if (c.pore.shape != PoreShape::none) {
+      check_reservoirs();
       check_start();
       check_end();
     }

@@ -172,7 +172,7 @@ struct Builder {
       if (!chosen.stands("capsule.start_x", "flow.type"))
         c.capsule.start_x = 0;
     } else if (!c.until.x_g && !c.until.time)
-      c.until.x_g = 11.84;
+      c.until.x_g = c.pore.shape == PoreShape::two_mouths ? c.pore.exit_x + 4 : 11.84;
   }
 
   bool has_required() {

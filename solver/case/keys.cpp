@@ -73,16 +73,21 @@ std::vector<Key> general_keys() {
 
 std::vector<Key> pore_keys() {
   return {
-      of_motion({"pore.shape", "hyperbolic mouth and tube; tube without a mouth; none: unbounded liquid",
-                 choice<PoreShape>(CAPSULE_AT(pore.shape), {"hyperbolic", "tube", "none"}), any_number,
-                 "hyperbolic; none with flow.type = \"extension\""}),
-      of_motion(only_with({"pore.shape", {"hyperbolic"}, "flow.type"},
+      of_motion({"pore.shape",
+                 "hyperbolic mouth and tube; two-mouths: the mouth's mirror image behind the tube, too; tube "
+                 "without a mouth; none: unbounded liquid",
+                 choice<PoreShape>(CAPSULE_AT(pore.shape), {"hyperbolic", "two-mouths", "tube", "none"}),
+                 any_number, "hyperbolic; none with flow.type = \"extension\""}),
+      of_motion(only_with({"pore.shape", {"hyperbolic", "two-mouths"}, "flow.type"},
                           {"pore.opening_angle_deg", "opening angle of the mouth, alpha of eq. 1, degrees",
                            member<double>(CAPSULE_AT(pore.opening_angle_deg)), above_up_to(0, 90)})),
-      of_motion(in_a_pore({"pore.exit_x", "position of the exit section, L_P",
+      of_motion(in_a_pore({"pore.exit_x", "where the tube ends, in the exit section or the second mouth, L_P",
                            member<double>(CAPSULE_AT(pore.exit_x)), above_up_to(0, 1000)})),
-      of_motion(in_a_pore({"pore.entrance_distance", "distance of the entrance section, L_E",
-                           member<double>(CAPSULE_AT(pore.entrance_distance)), above_up_to(1, 1000)})),
+      of_motion(in_a_pore(
+          {"pore.entrance_distance",
+           "distance of the entrance section from the mouth, L_E; of the wall's end behind a second "
+           "mouth, too",
+           member<double>(CAPSULE_AT(pore.entrance_distance)), above_up_to(1, 1000)})),
   };
 }
 
@@ -152,7 +157,9 @@ std::vector<Key> flow_keys() {
       {"flow.type", "through the pore, or uniaxial extension of an unbounded liquid",
        choice<FlowType>(CAPSULE_AT(flow.type), {"pore", "extension"}), any_number},
       in_a_pore({"flow.drive",
-                 "what is constant: the flow rate, or the pressure drop from the reservoir to pore.exit_x",
+                 "what is constant: the flow rate, or the pressure drop from the reservoir to pore.exit_x, "
+                 "or to the "
+                 "reservoir behind a second mouth",
                  choice<DriveBy>(CAPSULE_AT(flow.drive), {"flow-rate", "pressure"}), any_number}),
       parameter({"flow.capillary_number",
                  "epsilon = mu Q/(pi R_t^2 G), Q without a capsule; extension: mu e a/G",
@@ -197,7 +204,7 @@ std::vector<Key> until_keys() {
   return {
       of_motion(in_a_pore({"until.x_g", "stop when the centre of mass is here",
                            member<std::optional<double>>(CAPSULE_AT(until.x_g)), any_number,
-                           "11.84, unless until.time is given"})),
+                           "11.84, or 4 behind a second mouth, unless until.time is given"})),
       of_motion({"until.time", "stop at this time", member<std::optional<double>>(CAPSULE_AT(until.time)),
                  at_least(shortest_time), "none"}),
       of_motion({"until.area_stretch",

@@ -5,6 +5,7 @@
 // The keys of a case file are the names below, joined by dots: "pore.exit_x".
 #include "case/units.hpp"
 #include "law/law.hpp"
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace capsule {
 
-enum class PoreShape { hyperbolic, tube, none };
+enum class PoreShape { hyperbolic, two_mouths, tube, none };
 enum class FlowType { pore, extension };
 enum class DriveBy { flow_rate, pressure }; // what is given and constant
 enum class Numerics { standard, paper };    // the best preset we have; section 3 of the paper
@@ -24,6 +25,16 @@ struct PoreSpec {
   double exit_x = 15;              // L_P
   double entrance_distance = 30;   // L_E
 };
+// How far behind a second mouth the cap is that the flow rate is measured through: well before the wall's free end, and no
+// farther than needed, as what a wall of panels lets through grows with the square of the distance.
+inline double outlet_distance(double entrance_distance) {
+  return std::min(entrance_distance / 2, 15.0);
+}
+// A capsule stays before this place: the exit section, or well before that cap.
+inline double end_of_way(const PoreSpec &pore) {
+  return pore.exit_x +
+         (pore.shape == PoreShape::two_mouths ? outlet_distance(pore.entrance_distance) * 2 / 3 : 0);
+}
 
 struct CapsuleSpec {
   double radius = 0;       // R_eq, of the sphere with the same volume

@@ -3,36 +3,34 @@
 #include "flow/wall.hpp"
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace capsule {
 namespace {
 
-// The wall as far as potentials vary along it. In a tube they settle like exp(-3.83 d). In the reservoir the cap knows u_0
+// The wall as far as potentials vary along it. In a tube they settle like exp(-3.83 d). In a reservoir the cap knows u_0
 // but for a share of R^-2.
 Pore lengthened(const Pore &pore) {
   constexpr double more_tube = 5, reservoir = 30, times = 8;
-  return with_ends(pore, pore.exit_x + more_tube,
+  return with_ends(pore, pore.exit_x + (pore.shape == PoreShape::two_mouths ? 0 : more_tube),
                    pore.shape == PoreShape::tube ? pore.entrance_distance + more_tube
                                                  : times * std::max(reservoir, pore.entrance_distance));
 }
 
-// The part of a sphere around the mouth that closes the reservoir, from the wall to the axis, with the normal into the
+// The cap that closes the first reservoir: the mirror image of that behind a second mouth, and with the normal into the
 // liquid.
-Curve spherical_cap(const Pore &pore) {
-  constexpr int points = 12;
-  const WallPoint rim = wall_point(pore, pore.entrance_arc);
-  const double radius = std::hypot(rim.x, rim.r), half_angle = std::atan2(rim.r, -rim.x);
-  const Panels across = make_panels(Vector::LinSpaced(2, 0, half_angle), points);
-  const Eigen::ArrayXd angle = half_angle - across.points.array();
-  Curve cap;
-  cap.panel_points = points;
-  cap.weights = across.weights;
-  cap.x = -radius * angle.cos();
-  cap.r = radius * angle.sin();
-  cap.x_zeta = -cap.r;
-  cap.r_zeta = cap.x;
+Curve cap_before_mouth(Pore pore) {
+  pore.exit_arc = pore.exit_x - pore.entrance_arc;
+  Curve cap = cap_behind_exit(pore);
+  cap.x = pore.exit_x - cap.x.array();
+  cap.x_zeta *= -1;
   complete(cap);
   return cap;
+}
+
+double distance_from(double centre_x, const Curve &cap) {
+  return std::hypot(cap.x[0] - centre_x, cap.r[0]);
 }
 
 // The curve's points as targets on it; their gap to the nearest point, themselves, is that of the self rule.
@@ -76,30 +74,49 @@ FlowResolution conductor_resolution(FlowResolution resolution) {
   return resolution;
 }
 
+// Of the current pi through a part of a sphere.
+Conductor::Electrode Conductor::cap_electrode(Curve cap, double centre_x) {
+  const double field = 1 / (2 * cap.area.sum());
+  const double potential = field * distance_from(centre_x, cap);
+  return {std::move(cap), field, potential};
+}
+
 Conductor::Conductor(const Pore &pore, const FlowResolution &resolution)
     : tolerance_(resolution.near_tolerance) {
   const Pore far = lengthened(pore);
   const Panels along = wall_panels(far, resolution);
   wall_ = wall_curve(far, along);
   near_ = FixedNearRule(wall_, tolerance_);
-  section_ = plane_outlet(far.exit_x, tolerance_);
-  points_ = joined({wall_.x, wall_.r}, section_.row_points);
+  points_ = {wall_.x, wall_.r};
+  if (pore.shape == PoreShape::two_mouths) {
+    out_ = cap_electrode(cap_behind_exit(far), far.exit_x);
+    circle_ = Circle{far.exit_x / 2, 1 + std::min(far.exit_x / 2, 2.0)};
+  } else {
+    out_.section = make_outlet(far, tolerance_).curve;
+    points_ = joined(points_, {Vector::Constant(1, far.exit_x), Vector::Zero(1)});
+  }
+  section_near_ = NearRule(out_.section.panel_points, tolerance_);
 
   const Eigen::Index n = wall_.size();
+  const Targets on_axis = {points_.x.tail(points_.size() - n), points_.r.tail(points_.size() - n)};
   const SelfRule self = make_self_rule(along, along.points, 0); // the curvature jumps at the lip
   RowMatrix on_wall;
   assemble_layer(ring_dipole, on_itself(wall_, along, self), wall_, &self,
                  NearRule(wall_.panel_points, tolerance_), on_wall);
   RowMatrix matrix(n + 1, n + 1);
-  matrix << on_wall, behind_section({wall_.x, wall_.r}), response(section_.row_points);
-  matrix.diagonal().array() += 0.5;
+  matrix.topRows(n) << on_wall, behind_section({wall_.x, wall_.r});
+  if (circle_)
+    matrix.row(n) << flux_of_dipoles(wall_).transpose(), -flux_of_dipoles(out_.section).sum();
+  else
+    matrix.row(n) = response(on_axis);
+  matrix.diagonal().head(circle_ ? n : n + 1).array() += 0.5;
   inverse_ = matrix.partialPivLu().inverse();
 
   if (pore.shape == PoreShape::tube) {
     empty_resistance_ = pore.exit_x + pore.entrance_distance;
   } else {
-    cap_ = spherical_cap(far);
-    base_ = inverse_ * source_of_current(points_);
+    in_ = cap_electrode(cap_before_mouth(far), 0);
+    base_ = inverse_ * source_in_equations();
     empty_resistance_ = base_[n] - (far.exit_x - pore.exit_x);
   }
 }
@@ -121,32 +138,95 @@ RowMatrix Conductor::response(const Targets &points) const {
   return response;
 }
 
-// The double layer of 1 on the wall without end: minus the solid angle of the section over 4 pi, none in its plane.
-Vector Conductor::behind_section(const Targets &points) const {
-  RowMatrix section;
-  assemble_layer(ring_dipole, points, section_.curve, nullptr, section_.near, section);
-  return (points.x.array() == section_.curve.x[0]).select(0, -section.rowwise().sum());
+// The layer of 1 on a section.
+Vector Conductor::layer(const RingKernel &kernel, const Targets &points, const Curve &section) const {
+  RowMatrix matrix;
+  assemble_layer(kernel, points, section, nullptr, section_near_, matrix);
+  return matrix.rowwise().sum();
 }
 
-// What is known of u_0: the current leaves through the section, where the field is 1, and comes through the cap evenly.
+// The double layer of 1 on the wall without end: minus the solid angle of the section over 4 pi, none in its plane.
+Vector Conductor::behind_section(const Targets &points) const {
+  const Vector solid_angle = layer(ring_dipole, points, out_.section);
+  if (circle_)
+    return -solid_angle;
+  return (points.x.array() == out_.section.x[0]).select(0, -solid_angle);
+}
+
+// What is known of u_0 where the current comes and leaves.
 Vector Conductor::source_of_current(const Targets &points) const {
-  const double cap_field = 1 / (2 * cap_.area.sum());
-  const double cap_potential = cap_field * std::hypot(cap_.x[0], cap_.r[0]);
-  const auto layer = [&](const RingKernel &kernel, const Curve &curve) -> Vector {
-    RowMatrix matrix;
-    assemble_layer(kernel, points, curve, nullptr, section_.near, matrix);
-    return matrix.rowwise().sum();
-  };
-  return layer(ring_source, section_.curve) - cap_field * layer(ring_source, cap_) -
-         cap_potential * layer(ring_dipole, cap_);
+  Vector source = out_.field * layer(ring_source, points, out_.section) -
+                  in_.field * layer(ring_source, points, in_.section);
+  for (const Electrode *end : {&out_, &in_})
+    if (end->potential > 0)
+      source -= end->potential * layer(ring_dipole, points, end->section);
+  return source;
+}
+
+// The double layer of a curve in the left sides of the equations, from potentials at its points.
+RowMatrix Conductor::in_equations(const Curve &dipoles, const NearRule &near) const {
+  RowMatrix layer;
+  assemble_layer(ring_dipole, points_, dipoles, nullptr, near, layer);
+  if (!circle_)
+    return layer;
+  RowMatrix with_flux(layer.rows() + 1, layer.cols());
+  with_flux << layer, flux_of_dipoles(dipoles).transpose();
+  return with_flux;
+}
+
+// What is known of u_0 in the right sides.
+Vector Conductor::source_in_equations() const {
+  const Vector at_points = source_of_current(points_);
+  if (!circle_)
+    return at_points;
+  constexpr double current = 0.5; // pi over the azimuth's 2 pi
+  double flux = out_.field * flux_of_sources(out_.section) - in_.field * flux_of_sources(in_.section);
+  for (const Electrode *end : {&out_, &in_})
+    flux -= end->potential * flux_of_dipoles(end->section).sum();
+  Vector source(at_points.size() + 1);
+  source << at_points, flux - current;
+  return source;
+}
+
+// The flux of each ring of dipoles through the circle, over 2 pi. With G = 1/(4 pi |e|) it is minus the derivative along
+// the ring's normal of the flux of a source there; that is the circle's solid angle, whose gradient is the magnetic field of
+// a current along the circle.
+Vector Conductor::flux_of_dipoles(const Curve &dipoles) const {
+  const double a = circle_->radius;
+  Vector flux(dipoles.size());
+  for (Eigen::Index i = 0; i < flux.size(); ++i) {
+    const double x = dipoles.x[i] - circle_->x, r = dipoles.r[i];
+    const double far2 = (a + r) * (a + r) + x * x, near2 = (a - r) * (a - r) + x * x;
+    const double modulus = std::sqrt(4 * a * r / far2);
+    const double k = std::comp_ellint_1(modulus), e = std::comp_ellint_2(modulus);
+    const double factor = 1 / (2 * std::numbers::pi * std::sqrt(far2));
+    const double field_x = factor * (k + (a * a - r * r - x * x) / near2 * e);
+    const double field_r = factor * x / r * ((a * a + r * r + x * x) / near2 * e - k);
+    flux[i] = dipoles.area[i] * (field_x * dipoles.normal_x[i] + field_r * dipoles.normal_r[i]);
+  }
+  return flux;
+}
+
+// The flux of sources of strength 1 on a curve, over 2 pi: the solid angle of the circle over 4 pi.
+double Conductor::flux_of_sources(const Curve &sources) const {
+  const Panels across = make_panels(Vector::LinSpaced(2, 0, circle_->radius), sources.panel_points);
+  Curve disc;
+  disc.panel_points = sources.panel_points;
+  disc.weights = across.weights;
+  disc.x = Vector::Constant(across.points.size(), circle_->x);
+  disc.r = circle_->radius - across.points.array();
+  disc.x_zeta = Vector::Zero(across.points.size());
+  disc.r_zeta = Vector::Constant(across.points.size(), -1);
+  complete(disc);
+  return -sources.area.dot(layer(ring_dipole, {sources.x, sources.r}, disc));
 }
 
 double Conductor::change(const MembraneMesh &mesh, const Vector &position) const {
   const MembraneShape shape = shape_at(mesh, position);
   const RowMatrix from_wall = response(shape.targets);
-  RowMatrix to_nodes, to_wall;
+  RowMatrix to_nodes;
   assemble_layer(ring_dipole, shape.targets, shape.panels, &mesh.self, mesh.near, to_nodes);
-  assemble_layer(ring_dipole, points_, shape.panels, nullptr, mesh.near, to_wall);
+  const RowMatrix to_wall = in_equations(shape.panels, mesh.near);
   const Matrix interpolation = at_panels(mesh);
 
   Vector base = shape.targets.x;

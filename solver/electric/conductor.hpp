@@ -5,11 +5,14 @@
 //   With the current that has the field 1 in the empty tube, the potential is u_0 without and u = u_0 + w with membranes.
 // Laplace's equation, as integrals over wall B and membranes M (9.1 of paper-notes/equations.md), leaves
 //   0 = A (w on B; w_+) + D_BM u,   u_0 = (1/2 + D_MM) u + D_MB (w; w_+)
-// The membranes change the resistance by w_+, the disturbance far away in the tube, where the wall goes on without end
-// behind a section; at the other end w vanishes. A is of the second kind and inverted once.
+// The membranes change the resistance by w_+, the disturbance far away behind a section: in the tube, where the wall goes
+// on without end, or behind a second mouth, where the section is a cap. At the other end w vanishes. The last row of A says
+// that w carries no current: w_+ on the section itself, or behind a second mouth, where the potential of a current fades,
+// no flux through a circle around the tube. A is of the second kind and inverted once.
 #include "flow/membrane_mesh.hpp"
 #include "flow/outlet.hpp"
 #include "geometry/pore.hpp"
+#include <optional>
 
 namespace capsule {
 
@@ -21,24 +24,43 @@ public:
   // On a wall that goes on further than the pore.
   Conductor(const Pore &pore, const FlowResolution &resolution);
 
-  // Between the electrodes and the end of the pore; of a tube between its ends.
+  // Between the electrodes and the end of the pore, or the electrodes behind it; of a tube between its ends.
   double empty_resistance() const { return empty_resistance_; }
   // What the membranes add at a position, 2N. Throws NumericsFailure("unresolved") if their potential is not found.
   double change(const MembraneMesh &mesh, const Vector &position) const;
 
 private:
+  // A section that the current passes evenly at the empty pore's end, with the normal into the liquid, and the difference of
+  // u_0 there from what it is far behind it.
+  struct Electrode {
+    Curve section;
+    double field = 1, potential = 0;
+  };
+  static Electrode cap_electrode(Curve cap, double centre_x);
+
+  // Around the tube, in the solid: the flux through it is the tube's.
+  struct Circle {
+    double x, radius;
+  };
+
   RowMatrix response(const Targets &points) const;
+  RowMatrix in_equations(const Curve &dipoles, const NearRule &near) const;
+  Vector source_in_equations() const;
+  Vector flux_of_dipoles(const Curve &dipoles) const;
+  double flux_of_sources(const Curve &sources) const;
+  Vector layer(const RingKernel &kernel, const Targets &points, const Curve &section) const;
   Vector behind_section(const Targets &points) const;
   Vector source_of_current(const Targets &points) const;
 
   double tolerance_; // of near panels and of potentials
+  NearRule section_near_;
   Curve wall_;
   FixedNearRule near_;
-  Outlet section_;    // behind which the wall has no end
-  Curve cap_;         // that closes the reservoir
-  Targets points_;    // of the equations: the wall's and the one of w_+
-  RowMatrix inverse_; // A^(-1)
-  Vector base_;       // u_0 on the wall and behind the section; empty where u_0 = x
+  Electrode out_, in_;           // behind the section out_ the wall has no end; none closes a tube
+  std::optional<Circle> circle_; // of the last equation, which is that of a point otherwise
+  Targets points_;               // of the other equations
+  RowMatrix inverse_;            // A^(-1)
+  Vector base_;                  // u_0 on the wall and behind the section; empty where u_0 = x
   double empty_resistance_ = 0;
 };
 

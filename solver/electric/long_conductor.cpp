@@ -40,9 +40,11 @@ double long_conductor_change(const Pore &pore, const MeridianBasis &basis, const
   const double first_x = x.minCoeff(&rear), last_x = x.maxCoeff(&front);
   const double first = extreme_near(basis.nodes[rear], basis, x);
   const double last = extreme_near(basis.nodes[front], basis, x);
-  std::vector<double> ends{first, last};
-  if (first_x < 0 && last_x > 0) // the wall's curvature jumps at the lip
-    ends.insert(ends.begin() + 1, crossing(first, last, basis, x));
+  std::vector<double> ends{first};
+  for (const double lip : {0.0, pore.exit_x}) // where the wall's curvature may jump
+    if (first_x < lip && last_x > lip)
+      ends.push_back(crossing(first, last, basis, x.array() - lip));
+  ends.push_back(last);
 
   double sum = 0;
   for (std::size_t k = 0; k + 1 < ends.size(); ++k) {

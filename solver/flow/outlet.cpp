@@ -1,29 +1,71 @@
 #include "flow/outlet.hpp"
 #include "flow/undisturbed.hpp"
+#include <cmath>
 
 namespace capsule {
+namespace {
 
-Outlet plane_outlet(double x, double near_tolerance) {
-  constexpr int points = 12;
-  const Panels across = make_panels(Vector::LinSpaced(2, 0, 1), points);
+constexpr int panel_points = 12;
+
+// Eqs. 14 and 15.
+Outlet plane_outlet(double x) {
+  const Panels across = make_panels(Vector::LinSpaced(2, 0, 1), panel_points);
   Outlet outlet;
   Curve &curve = outlet.curve;
-  curve.panel_points = points;
+  curve.panel_points = panel_points;
   curve.weights = across.weights;
-  curve.x = Vector::Constant(points, x);
+  curve.x = Vector::Constant(panel_points, x);
   curve.r = 1 - across.points.array();
-  curve.x_zeta = Vector::Zero(points);
-  curve.r_zeta = Vector::Constant(points, -1);
+  curve.x_zeta = Vector::Zero(panel_points);
+  curve.r_zeta = Vector::Constant(panel_points, -1);
   complete(curve);
-  const Vector none = Vector::Zero(points);
-  outlet.base_traction.resize(2 * points);
+  const Vector none = Vector::Zero(panel_points);
+  outlet.base_traction.resize(2 * panel_points);
   outlet.base_traction << none, curve.r.unaryExpr(&poiseuille_shear);
-  outlet.base_velocity.resize(2 * points);
+  outlet.base_velocity.resize(2 * panel_points);
   outlet.base_velocity << curve.r.unaryExpr(&poiseuille_velocity), none;
   outlet.row_points = {Vector::Constant(1, x), Vector::Zero(1)};
   outlet.row_weights = Vector::Unit(2, 0);
   outlet.base_row = poiseuille_velocity(0) / 2; // beta = 1/2 on the section
-  outlet.near = NearRule(points, near_tolerance);
+  return outlet;
+}
+
+Outlet cap_outlet(const Pore &pore) {
+  Outlet outlet;
+  const Curve &cap = outlet.curve = cap_behind_exit(up_to_outlet(pore));
+  outlet.row_points = {cap.x, cap.r};
+  outlet.row_weights.resize(2 * cap.size());
+  outlet.row_weights << cap.area.cwiseProduct(cap.normal_x), cap.area.cwiseProduct(cap.normal_r);
+  outlet.base_row = 0.5; // the flux pi over the azimuth's 2 pi
+  return outlet;
+}
+
+} // namespace
+
+Pore up_to_outlet(const Pore &pore) {
+  return with_ends(pore, pore.exit_x, outlet_distance(pore.entrance_distance));
+}
+
+Curve cap_behind_exit(const Pore &pore) {
+  const WallPoint rim = wall_point(pore, pore.exit_arc);
+  const double radius = std::hypot(rim.x - pore.exit_x, rim.r);
+  const double half_angle = std::atan2(rim.r, rim.x - pore.exit_x);
+  const Panels across = make_panels(Vector::LinSpaced(3, 0, half_angle), panel_points);
+  const Eigen::ArrayXd angle = half_angle - across.points.array();
+  Curve cap;
+  cap.panel_points = panel_points;
+  cap.weights = across.weights;
+  cap.x = pore.exit_x + radius * angle.cos();
+  cap.r = radius * angle.sin();
+  cap.x_zeta = radius * angle.sin();
+  cap.r_zeta = -radius * angle.cos();
+  complete(cap);
+  return cap;
+}
+
+Outlet make_outlet(const Pore &pore, double near_tolerance) {
+  Outlet outlet = pore.shape == PoreShape::two_mouths ? cap_outlet(pore) : plane_outlet(pore.exit_x);
+  outlet.near = NearRule(panel_points, near_tolerance);
   return outlet;
 }
 
@@ -40,6 +82,8 @@ Vector Outlet::column(const RowMatrix &single) const {
 }
 
 Vector Outlet::base_field(const Targets &points, const RowMatrix &single) const {
+  if (base_velocity.size() == 0)
+    return Vector::Zero(2 * points.size());
   RowMatrix double_layer;
   assemble_layer(ring_stresslet, points, curve, nullptr, near, double_layer);
   for (Eigen::Index i = 0; i < points.size(); ++i)

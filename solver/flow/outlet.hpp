@@ -3,14 +3,19 @@
 // column, the pressure P' of the disturbance there, and one row, an equation for the velocity at some points. What is
 // known of the undisturbed flow at unit flow rate on the section adds to that flow everywhere.
 //   The plane section of eqs. 14 and 15: Poiseuille's flow is known on it, the row is the axial velocity at its centre.
+//   The cap of a sphere behind a second mouth: nothing is known of the flow there but its rate, pi. The column is the jump
+// of the pressure on a cap that lets the liquid through, as if a pump stood there; both reservoirs are at rest and have no
+// pressure far away. The row is the flux through the cap: the column transposed. The wall goes on, at least to twice
+// the distance: at its free end the flow's error is largest, and the flux would sum it.
 // Velocities: 2 n, axial, then radial; tractions are those on the liquid, with the normal out of it.
+#include "geometry/pore.hpp"
 #include "integrals/layer_potential.hpp"
 
 namespace capsule {
 
 struct Outlet {
   Curve curve; // from the wall to the axis
-  // What is known of the undisturbed flow: the traction besides the uniform pressure, and the velocity, 2 m.
+  // What is known of the undisturbed flow: the traction besides the uniform pressure, and the velocity, 2 m; or nothing.
   Vector base_traction, base_velocity;
   Targets row_points; // where the row asks for the velocity, and the weights of both components there
   Vector row_weights;
@@ -27,6 +32,11 @@ struct Outlet {
   Vector row(const RingKernel &kernel, const Rings &rings) const;
 };
 
-Outlet plane_outlet(double x, double near_tolerance);
+// The pore with two mouths as far as its outlet.
+Pore up_to_outlet(const Pore &pore);
+// The part of a sphere that closes the reservoir behind a second mouth where the wall ends: from the wall to the axis.
+Curve cap_behind_exit(const Pore &pore);
+
+Outlet make_outlet(const Pore &pore, double near_tolerance);
 
 } // namespace capsule

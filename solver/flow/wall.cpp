@@ -18,18 +18,30 @@ Vector tube_edges(double length, const FlowResolution &resolution) {
   return edges;
 }
 
-// Edges of the wall's panels by arc length from the outlet: those of a tube; or equal in the pore, halved
-// towards the lip from both sides, and growing with the distance from the lip in the reservoir, where the
-// flow decays like a power.
+// Edges of the wall's panels by arc length: those of a tube; or equal in the pore, halved towards each lip from both
+// sides, and growing with the distance from the lip in the reservoir, where the flow decays like a power.
 Vector wall_edges(const Pore &pore, const FlowResolution &resolution) {
   if (pore.shape == PoreShape::tube)
     return tube_edges(pore.entrance_arc, resolution);
   const double lip = pore.exit_x;
-  const Vector tube = graded_edges(0, lip, resolution.lip_panel, resolution.wall_panel, Graded::last);
-  const Vector reservoir =
-      graded_edges(lip, pore.entrance_arc, resolution.lip_panel, pore.entrance_arc, Graded::first);
-  Vector edges(tube.size() + reservoir.size() - 1);
-  edges << tube, reservoir.tail(reservoir.size() - 1);
+  const bool two_mouths = pore.shape == PoreShape::two_mouths;
+  const Vector tube = graded_edges(0, lip, resolution.lip_panel, resolution.wall_panel,
+                                   two_mouths ? Graded::both : Graded::last);
+  const auto outside = [&](double from, double to, double first_panel) -> Vector {
+    const Vector edges = graded_edges(from, to, first_panel, pore.entrance_arc, Graded::first);
+    return edges.tail(edges.size() - 1);
+  };
+  const Vector before = outside(lip, pore.entrance_arc, resolution.lip_panel);
+  Vector behind; // both lips' sides are alike, but tractions jump where the wall meets the outlet
+  if (two_mouths) {
+    const double outlet = up_to_outlet(pore).entrance_arc;
+    const Vector near = outside(lip, outlet, resolution.lip_panel);
+    const Vector far = outside(outlet, pore.entrance_arc, near[near.size() - 1] - near[near.size() - 2]);
+    behind.resize(near.size() + far.size());
+    behind << lip - far.reverse().array(), lip - near.reverse().array();
+  }
+  Vector edges(behind.size() + tube.size() + before.size());
+  edges << behind, tube, before;
   return edges;
 }
 
@@ -59,7 +71,7 @@ Curve wall_curve(const Pore &pore, const Panels &along) {
 
 Wall::Wall(const Pore &pore, const FlowResolution &resolution)
     : near_(resolution.wall_panel_points, resolution.near_tolerance),
-      outlet_(plane_outlet(pore.exit_x, resolution.near_tolerance)) {
+      outlet_(make_outlet(pore, resolution.near_tolerance)) {
   const Panels along = wall_panels(pore, resolution);
   arc_ = along.points;
   curve_ = wall_curve(pore, along);

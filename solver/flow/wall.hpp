@@ -23,7 +23,7 @@ public:
 
   Eigen::Index unknowns() const { return inverse_.rows(); }
   Eigen::Index outlet_unknown() const { return curve_.size(); }
-  const Curve &curve() const { return curve_; } // from the outlet to the entrance
+  const Curve &curve() const { return curve_; } // from the outlet's end to the entrance
   const Outlet &outlet() const { return outlet_; }
   // Of the curve's panels, for targets off the wall.
   const FixedNearRule &near() const { return fixed_near_; }
@@ -42,7 +42,7 @@ public:
   // The same velocity where what forces do (2 n x unknowns) and the outlet's single layer are at hand.
   Vector base_velocity(const Targets &points, const RowMatrix &from_forces,
                        const RowMatrix &outlet_single) const;
-  // Its traction on the wall's points: columns arc length from the outlet, f_x, f_r.
+  // Its traction on the wall's points: columns arc length of pore.hpp, f_x, f_r.
   Matrix base_traction() const;
 
 private:

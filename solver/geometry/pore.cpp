@@ -88,6 +88,11 @@ double hyperbola_distance(const Pore &pore, double x, double r) {
   return r <= wall_radius(pore, x) ? distance : -distance;
 }
 
+// Behind a second lip the wall is the mirror image of that before the first.
+bool behind_exit(const Pore &pore, double x) {
+  return pore.shape == PoreShape::two_mouths && x > pore.exit_x;
+}
+
 double right_angle_distance(double x, double r) {
   return r > 1 ? -x : std::hypot(x, 1 - r);
 }
@@ -122,10 +127,18 @@ Pore with_ends(Pore pore, double exit_x, double entrance_distance) {
     pore.entrance_arc = pore.exit_x + pore.entrance_distance - 1;
   else // on the cap r = cosh u with sinh u = sin(alpha) reach = k sinh w
     pore.entrance_arc = pore.exit_x + hyperbola_arc(pore, std::asinh(pore.sine * reach / pore.cosine));
+  if (pore.shape == PoreShape::two_mouths)
+    pore.exit_arc = pore.exit_x - pore.entrance_arc;
+  pore.end_of_way =
+      end_of_way({.shape = pore.shape, .exit_x = exit_x, .entrance_distance = entrance_distance});
   return pore;
 }
 
 WallPoint wall_point(const Pore &pore, double arc) {
+  if (arc < 0) {
+    const WallPoint image = wall_point(pore, pore.exit_x - arc);
+    return {pore.exit_x - image.x, image.r, -image.normal_x, image.normal_r};
+  }
   const double beyond = arc - pore.exit_x; // of the lip
   if (pore.shape == PoreShape::tube || beyond <= 0)
     return {-beyond, 1, 0, 1};
@@ -137,12 +150,16 @@ WallPoint wall_point(const Pore &pore, double arc) {
 }
 
 double wall_radius(const Pore &pore, double x) {
+  if (behind_exit(pore, x))
+    return wall_radius(pore, pore.exit_x - x);
   if (pore.shape == PoreShape::tube || x >= 0)
     return 1;
   return right_angled(pore) ? infinity : std::hypot(1.0, x * pore.sine / pore.cosine);
 }
 
 double wall_slope(const Pore &pore, double x) {
+  if (behind_exit(pore, x))
+    return -wall_slope(pore, pore.exit_x - x);
   if (pore.shape == PoreShape::tube || x >= 0)
     return 0;
   const double tangent = pore.sine / pore.cosine;
@@ -150,6 +167,8 @@ double wall_slope(const Pore &pore, double x) {
 }
 
 double wall_distance(const Pore &pore, double x, double r) {
+  if (behind_exit(pore, x))
+    return wall_distance(pore, pore.exit_x - x, r);
   if (pore.shape == PoreShape::tube || x >= 0)
     return 1 - r;
   return right_angled(pore) ? right_angle_distance(x, r) : hyperbola_distance(pore, x, r);

@@ -383,9 +383,9 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
       return found == quantities.end() ? 0 : found->second;
     };
     const double moving = std::max(at_the_end("max_axial_residual"), at_the_end("max_radial_velocity"));
-    const double rear = at_the_end("x_g") - at_the_end("length") / 2;
-    const bool in_the_mouth = input.physics.pore.shape == PoreShape::hyperbolic && rear < 0;
-    if (moving <= input.physics.accuracy || in_the_mouth)
+    const PoreShape shape = input.physics.pore.shape;
+    const bool in_the_mouth = shape == PoreShape::hyperbolic && at_the_end("x_g") < at_the_end("length") / 2;
+    if (moving <= input.physics.accuracy || in_the_mouth || shape == PoreShape::two_mouths)
       continue;
     ++unsteady;
     fastest = std::max(fastest, moving);

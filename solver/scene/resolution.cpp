@@ -36,12 +36,14 @@ Resolution choose_resolution(const Case &physics) {
     flow.solver_tolerance = 0.03 * resolution.time_tolerance;
   flow.wall_panel_points = digits > 4.5 || (tight && digits > 2.5) ? 12 : digits > 2.5 || tight ? 10 : 8;
   flow.lip_panel = digits > 5 ? 0.02 : digits > 3.5 ? 0.08 : digits > 2.5 ? 0.16 : 0.32;
-  // About two fifths of the wall's points lie in the tube.
+  // About two fifths of the wall's points lie in the tube, a quarter between two mouths.
+  const double in_tube = physics.pore.shape == PoreShape::two_mouths ? 0.25 : 0.4;
   const double tube_points = physics.pore.exit_x * flow.wall_panel_points;
   const double panel = std::clamp(1.15 - 0.1 * digits, 0.4, 0.8) - (tight ? 0.25 : 0);
-  resolution.wall_points =
-      physics.mesh.wall > 0 ? physics.mesh.wall : static_cast<int>(std::lround(tube_points / (0.4 * panel)));
-  flow.wall_panel = tube_points / (0.4 * resolution.wall_points);
+  resolution.wall_points = physics.mesh.wall > 0
+                               ? physics.mesh.wall
+                               : static_cast<int>(std::lround(tube_points / (in_tube * panel)));
+  flow.wall_panel = tube_points / (in_tube * resolution.wall_points);
   return resolution;
 }
 

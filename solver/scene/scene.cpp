@@ -61,7 +61,7 @@ void require_capsule(const std::optional<Pore> &pore, const Vector &position, co
     throw NumericsFailure("folded", "the membrane crosses the axis", "try a larger membrane.bending_ratio");
   if (!pore)
     return;
-  if (position.head(n).maxCoeff() > pore->exit_x - section_margin ||
+  if (position.head(n).maxCoeff() > pore->end_of_way - section_margin ||
       (pore->shape == PoreShape::tube &&
        position.head(n).minCoeff() < section_margin - pore->entrance_distance))
     throw NumericsFailure("exit", "the membrane reaches the end of the pore", advice.at_the_end);

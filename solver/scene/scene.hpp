@@ -31,7 +31,7 @@ struct Advice {
   const char *at_the_wall, *at_the_end;
 };
 // Throws NumericsFailure for positions that no flow is computed for: "not-a-number"; "folded", across the axis; "exit",
-// within 0.1 of a section at the end of the pore, where the flow is taken for Poiseuille's; "touching" the wall.
+// within 0.1 of the end of the way, such as a section where the flow is taken for Poiseuille's; "touching" the wall.
 void require_capsule(const std::optional<Pore> &pore, const Vector &position, const Advice &advice);
 
 } // namespace capsule

@@ -131,6 +131,19 @@ BOOST_AUTO_TEST_CASE(empty_mouth) {
   BOOST_TEST(std::abs(square.empty_resistance() - 15 - pi / 4) < 0.04); // Hall's orifice
 }
 
+// With two mouths: twice the mouth's excess, and the mirror image of a sphere.
+BOOST_AUTO_TEST_CASE(between_two_mouths) {
+  const Pore pore = make_pore({.shape = PoreShape::two_mouths, .exit_x = 6}).value();
+  const Conductor conductor(pore, fine());
+  BOOST_TEST(std::abs(conductor.empty_resistance() - 6 - 2 * 0.9773755) < 1.2e-6);
+  const Meter meter(pore, 40), one_mouth(make_pore({}).value(), 40);
+  BOOST_TEST(std::abs(meter.sphere(3, 0.8) - 2 * std::pow(0.8, 3) * 1.710194) < 1e-4);
+  for (const double x : {-2.0, -0.5, 0.5}) {
+    BOOST_TEST(std::abs(meter.sphere(x, 0.8) - meter.sphere(6 - x, 0.8)) < 1e-7);
+    BOOST_TEST(std::abs(meter.sphere(x, 0.8) - one_mouth.sphere(x, 0.8)) < 1e-6);
+  }
+}
+
 // The ends of the pore are not the ends of the conductor.
 BOOST_AUTO_TEST_CASE(ends_of_the_pore_do_not_count) {
   const Meter standard(make_pore({}).value(), 40);

@@ -117,6 +117,23 @@ BOOST_AUTO_TEST_CASE(distance_to_the_wall) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(second_mouth_is_the_first_s_mirror_image) {
+  const Pore pore = make_pore({.shape = PoreShape::two_mouths, .exit_x = 6}).value();
+  BOOST_TEST(std::abs(pore.exit_arc + pore.entrance_arc - 6) < 1e-12);
+  for (const double arc : {pore.exit_arc, -3.0, -0.1, 2.0, 3.0}) {
+    const WallPoint point = wall_point(pore, arc), image = wall_point(pore, 6 - arc);
+    BOOST_TEST(std::abs(point.x + image.x - 6) < 1e-12);
+    BOOST_TEST(std::abs(point.r - image.r) < 1e-12);
+    BOOST_TEST(std::abs(point.normal_x + image.normal_x) < 1e-12);
+    BOOST_TEST(std::abs(point.normal_r - image.normal_r) < 1e-12);
+    BOOST_TEST(std::abs(wall_radius(pore, point.x) - point.r) < 1e-10 * point.r);
+  }
+  for (const double x : {-2.0, -0.2, 1.0}) {
+    BOOST_TEST(std::abs(wall_distance(pore, 6 - x, 0.7) - wall_distance(pore, x, 0.7)) < 1e-14);
+    BOOST_TEST(std::abs(wall_slope(pore, 6 - x) + wall_slope(pore, x)) < 1e-13);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(straight_tube_and_bad_input) {
   PoreSpec spec;
   spec.shape = PoreShape::tube;

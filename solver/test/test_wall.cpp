@@ -53,6 +53,19 @@ BOOST_AUTO_TEST_CASE(entrance_loss_of_a_square_mouth) {
   BOOST_TEST(std::abs(pore_wall(90).base_pressure_drop() - 8 * 15 - sampson) < 0.01 * (8 * 15 + sampson));
 }
 
+// Both mouths add the same (scenes.md, another program: 4.924572 each, to 1e-5), less what the flow costs beyond the
+// wall's end.
+BOOST_AUTO_TEST_CASE(drop_of_a_pore_with_two_mouths) {
+  for (const double length : {4.0, 12.0}) {
+    const Wall pore(
+        make_pore({.shape = PoreShape::two_mouths, .exit_x = length, .entrance_distance = 60}).value(), {});
+    const double drop = 8 * length + 2 * 4.924572;
+    BOOST_TEST(std::abs(pore.base_pressure_drop() / drop - 1) < 1e-7);
+  }
+  const Wall shorter(make_pore({.shape = PoreShape::two_mouths, .exit_x = 4}).value(), {});
+  BOOST_TEST(std::abs(shorter.base_pressure_drop() / (8 * 4 + 2 * 4.924572) - 1) < 1e-6);
+}
+
 // Half of the pressure drop through a whole hyperboloid, 3 pi sin^3/((1 - cos)^2 (1 + 2 cos)), is what the
 // mouth adds, but for the tube that replaces the other half.
 BOOST_AUTO_TEST_CASE(entrance_loss_of_the_hyperbolic_mouth) {
