@@ -94,6 +94,10 @@ echo "inherit = 'case.toml'
 $good" | bad "1:11: error: .* inherits from itself"
 echo "$good
 mesh.exit = 20" | bad '4:13: error: mesh.exit means nothing to numerics = "standard"'
+echo "$good
+membrane.shear_viscosity = -1" | bad '4:28: error: membrane.shear_viscosity = -1 is out of range'
+printf '%s\nmembrane.dilatational_viscosity = 1\nnumerics = "paper"\n' "$good" |
+  bad '4:35: error: membrane.dilatational_viscosity means nothing to numerics = "paper"'
 for wrong in 'time.scheme = "bdf"' 'pore.shape = "tube"' 'flow.type = "extension"'; do
   printf '%s\nnumerics = "paper"\n%s\n' "$good" "$wrong" | bad '5:[0-9]+: error: numerics = "paper" '
 done
@@ -111,6 +115,8 @@ capsule_radius = "4 µm"
 law = "neo-hookean"'
 echo "$physical" | sed 's/5 um/5 umm/' | bad "2:15: error: physical.tube_radius: unknown unit 'umm' in '5 umm'"
 echo "$physical" | sed 's/nL.s/nL/' | bad "4:13: error: physical.flow_rate: '0.1 nL' is a quantity in m3, not a flow rate"
+printf '%s\nshear_viscosity = 200\n' "$physical" | sed '/^flow_rate/a shear_viscosity = "200 mPa.s"' |
+  bad "5:19: error: physical.shear_viscosity: '200 mPa.s' is a viscosity, not a surface viscosity"
 echo "$physical" | sed '/viscosity/d' | bad "2:15: error: missing key 'physical.viscosity'"
 echo "$physical" | sed 's/tube_radius/tube_radus/' | bad "2:1: error: unknown key 'physical.tube_radus'"
 rm -r bad

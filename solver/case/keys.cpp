@@ -149,6 +149,16 @@ std::vector<Key> membrane_keys() {
   std::ranges::move(law_parameter_keys(), std::back_inserter(table));
   table.push_back(parameter({"membrane.bending_ratio", "bending stiffness over G R_t^2, delta",
                              member<double>(CAPSULE_AT(membrane.bending_ratio)), at_least(0)}));
+  table.push_back(only_with({"numerics", {"standard"}},
+                            {"membrane.shear_viscosity",
+                             "resistance of the membrane to the rate of shear over mu R_t, mu_s; steady "
+                             "states do not depend on it, their growth rates do",
+                             member<double>(CAPSULE_AT(membrane.viscosity.shear)), from_to(0, 1e6)}));
+  table.push_back(only_with({"numerics", {"standard"}},
+                            {"membrane.dilatational_viscosity",
+                             "resistance of the membrane to the rate of dilatation over mu R_t, kappa_s; "
+                             "steady states do not depend on it, their growth rates do",
+                             member<double>(CAPSULE_AT(membrane.viscosity.dilatational)), from_to(0, 1e6)}));
   return table;
 }
 
@@ -237,6 +247,11 @@ std::vector<Key> physical_keys() {
                  measured(CAPSULE_AT(physical.capsule_radius), dimension::length)}),
       in_a_pore({"physical.internal_viscosity", "instead of flow.viscosity_ratio",
                  measured(CAPSULE_AT(physical.internal_viscosity), dimension::viscosity)}),
+      in_a_pore({"physical.shear_viscosity", "of the membrane, instead of membrane.shear_viscosity",
+                 measured(CAPSULE_AT(physical.shear_viscosity), dimension::surface_viscosity)}),
+      in_a_pore({"physical.dilatational_viscosity",
+                 "of the membrane, instead of membrane.dilatational_viscosity",
+                 measured(CAPSULE_AT(physical.dilatational_viscosity), dimension::surface_viscosity)}),
       of_motion(in_a_pore({"physical.density",
                            "of the external liquid, rho: for the Reynolds number that `capsule show` states",
                            measured(CAPSULE_AT(physical.density), dimension::density), any_number,

@@ -52,9 +52,16 @@ inline Extent extent(const CapsuleSpec &capsule) {
   return {half_width * capsule.aspect_ratio, half_width};
 }
 
+// Of the membrane itself, scaled with mu R_t.
+struct SurfaceViscosity {
+  double shear = 0;        // mu_s
+  double dilatational = 0; // kappa_s
+};
+
 struct MembraneSpec {
   MembraneLaw law;
   double bending_ratio = 1e-5; // delta
+  SurfaceViscosity viscosity;
 };
 
 struct FlowSpec {
@@ -88,6 +95,7 @@ struct UntilSpec {
 struct PhysicalSpec {
   Quantity tube_radius, viscosity, flow_rate, pressure, pore_length;
   Quantity shear_modulus, young_modulus, bending_modulus, capsule_radius, internal_viscosity;
+  Quantity shear_viscosity, dilatational_viscosity;
   Quantity density; // of water if it is not given; only for the Reynolds number
 };
 

@@ -50,7 +50,8 @@ bool has_physical(const Case &physics) {
   const auto &p = physics.physical;
   return std::ranges::any_of(std::array{p.tube_radius, p.viscosity, p.flow_rate, p.pressure, p.pore_length,
                                         p.shear_modulus, p.young_modulus, p.bending_modulus, p.capsule_radius,
-                                        p.internal_viscosity, p.density},
+                                        p.internal_viscosity, p.shear_viscosity, p.dilatational_viscosity,
+                                        p.density},
                              [](const Quantity &quantity) { return quantity.si > 0; });
 }
 
@@ -94,6 +95,13 @@ std::vector<Derived> derived_values(const Case &physics) {
   if (p.internal_viscosity.si > 0)
     values.push_back(
         {"flow.viscosity_ratio", p.internal_viscosity.si / p.viscosity.si, "physical.internal_viscosity"});
+  if (p.shear_viscosity.si > 0)
+    values.push_back({"membrane.shear_viscosity", p.shear_viscosity.si / (p.viscosity.si * radius),
+                      "physical.shear_viscosity"});
+  if (p.dilatational_viscosity.si > 0)
+    values.push_back({"membrane.dilatational_viscosity",
+                      p.dilatational_viscosity.si / (p.viscosity.si * radius),
+                      "physical.dilatational_viscosity"});
   for (Derived &derived : values)
     derived.value = rounded(derived.value);
   return values;

@@ -1,7 +1,8 @@
 #include "flow/flow.hpp"
 #include "base/failure.hpp"
-#include "flow/layer_identities.hpp"
 #include "flow/reciprocal.hpp"
+#include <algorithm>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -40,6 +41,11 @@ Flow::Flow(Wall wall, MembraneMesh mesh, const FlowParameters &parameters, doubl
     excess_viscosity_(rows).setConstant(ratios[k] - 1);
     equal_viscosities_ = equal_viscosities_ && ratios[k] == 1;
   }
+  const std::vector<SurfaceViscosity> &surfaces = parameters.surface_viscosities;
+  if (!surfaces.empty() && surfaces.size() != mesh_.parts.size())
+    throw std::invalid_argument("each membrane has a surface viscosity");
+  if (std::ranges::any_of(surfaces, is_viscous))
+    surface_viscosities_ = surfaces;
 }
 
 Interaction Flow::interact(const Vector &position) const {
@@ -50,14 +56,59 @@ Interaction Flow::interact(const Vector &position, Layers layers) const {
   return {wall_, mesh_, position, layers, image_shifts_, drive_};
 }
 
+Vector Flow::at_nodes(const Interaction &interaction, const Densities &densities) {
+  Vector velocity = Vector::Zero(2 * interaction.mesh().nodes);
+  if (densities.single.size() > 0)
+    velocity += interaction.single_layer(densities.single);
+  if (densities.dbl.size() > 0)
+    velocity += interaction.double_layer(densities.dbl);
+  return velocity;
+}
+
+Vector Flow::at_wall(const Interaction &interaction, const Densities &densities) {
+  Vector velocity = Vector::Zero(interaction.wall().unknowns());
+  if (densities.single.size() > 0)
+    velocity += interaction.single_at_wall(densities.single);
+  if (densities.dbl.size() > 0)
+    velocity += interaction.double_at_wall(densities.dbl);
+  return velocity;
+}
+
 // Of the double layer; empty if there is none.
 Vector Flow::double_density(const Vector &velocity) const {
   return equal_viscosities_ ? Vector() : excess_viscosity_.cwiseProduct(velocity);
 }
 
-// beta - (D_MM - C A^(-1) D_BM) (lambda - 1) on nodal velocities.
-Matrix Flow::membrane_operator(const Matrix &double_layer) const {
-  Matrix matrix = -double_layer * excess_viscosity_.asDiagonal();
+// R of all membranes; empty where none is viscous.
+Matrix Flow::friction(const Interaction &interaction) const {
+  if (surface_viscosities_.empty())
+    return {};
+  Matrix friction = Matrix::Zero(2 * mesh_.nodes, 2 * mesh_.nodes);
+  const Vector nodal_area = 2 * std::numbers::pi * interaction.shape().nodes.area;
+  for (std::size_t k = 0; k < mesh_.parts.size(); ++k) {
+    const MembraneMesh::Part &part = mesh_.parts[k];
+    const std::vector<Eigen::Index> rows = mesh_.rows(k);
+    friction(rows, rows) = surface_friction(part.at_panels, nodal_area.segment(part.first_node, part.nodes()),
+                                            interaction.shape().position(rows), surface_viscosities_[k]);
+  }
+  return friction;
+}
+
+Vector Flow::load_with_friction(const Interaction &interaction, const Vector &f,
+                                const Vector &velocity) const {
+  return surface_viscosities_.empty() ? f : Vector(f - friction(interaction) * velocity);
+}
+
+// beta + (S_MM - C A^(-1) S_BM) R/(8 pi) - (D_MM - C A^(-1) D_BM) (lambda - 1) on nodal velocities.
+Matrix Flow::membrane_operator(const Interaction &interaction, const LayerIdentities &identities,
+                               const RowMatrix &answer_of_wall, const Matrix &friction) const {
+  const Eigen::Index n2 = 2 * mesh_.nodes;
+  Matrix matrix = equal_viscosities_
+                      ? Matrix(Matrix::Zero(n2, n2))
+                      : Matrix(-identities.double_layer(double_with_wall(interaction, answer_of_wall)) *
+                               excess_viscosity_.asDiagonal());
+  if (friction.size() > 0)
+    matrix += identities.without_flux(single_with_wall(interaction, answer_of_wall)) * friction;
   matrix.diagonal() += beta_;
   return matrix;
 }
@@ -67,15 +118,23 @@ Matrix Flow::membrane_operator(const Matrix &double_layer) const {
 Vector Flow::membrane_velocity(const Interaction &interaction, const Vector &right, Vector &at_wall,
                                Recycled &recycled) const {
   const LayerIdentities identities = layer_identities(mesh_, interaction.shape());
-  const auto relative_density = [&](const Vector &velocity) {
-    const Vector density = double_density(velocity);
-    return Vector(density - identities.whole_motion(density));
+  const Matrix friction = this->friction(interaction);
+  const auto own_densities = [&](const Vector &velocity) { // but for motions as a whole
+    Densities own{.single = {}, .dbl = double_density(velocity)};
+    if (friction.size() > 0)
+      own.single = -stokeslet_factor * (friction * velocity);
+    if (!equal_viscosities_)
+      own.dbl -= identities.whole_motion(own.dbl);
+    return own;
   };
   const auto residual = [&](const Vector &known, const Vector &known_at_wall, const Vector &velocity) {
-    const Vector density = double_density(velocity);
-    const Vector relative = relative_density(velocity);
-    const Vector made = known + 0.5 * (density - relative) + interaction.double_layer(relative) -
-                        interaction.answer_of_wall(known_at_wall + interaction.double_at_wall(relative));
+    const Vector density = excess_viscosity_.cwiseProduct(velocity);
+    const Densities own = own_densities(velocity);
+    Vector made = known;
+    if (!equal_viscosities_)
+      made += 0.5 * (density - own.dbl);
+    made += at_nodes(interaction, own);
+    made -= interaction.answer_of_wall(known_at_wall + Flow::at_wall(interaction, own));
     return Vector(identities.with_flux(made, density) - beta_.cwiseProduct(velocity));
   };
   const Vector nothing = Vector::Zero(right.size()), nothing_at_wall = Vector::Zero(at_wall.size());
@@ -83,11 +142,8 @@ Vector Flow::membrane_velocity(const Interaction &interaction, const Vector &rig
       interaction.shape().position, solver_tolerance_, recycled,
       [&](const Vector &guess) { return residual(right, at_wall, guess); },
       [&](const Vector &direction) { return Vector(-residual(nothing, nothing_at_wall, direction)); },
-      [&] {
-        return membrane_operator(
-            identities.double_layer(double_with_wall(interaction, interaction.answer_of_wall())));
-      }));
-  at_wall += interaction.double_at_wall(relative_density(velocity));
+      [&] { return membrane_operator(interaction, identities, interaction.answer_of_wall(), friction); }));
+  at_wall += Flow::at_wall(interaction, own_densities(velocity));
   return velocity;
 }
 
@@ -96,7 +152,7 @@ FlowState Flow::solve(const Interaction &interaction, const Vector &f, Recycled 
   FlowState state;
   state.velocity = interaction.base_velocity() + interaction.single_layer(density);
   Vector at_wall = interaction.single_at_wall(density); // b of the head comment
-  if (equal_viscosities_) {
+  if (equal_viscosities_ && surface_viscosities_.empty()) {
     state.velocity -= interaction.answer_of_wall(at_wall);
   } else {
     state.velocity = membrane_velocity(interaction, state.velocity, at_wall, recycled);
@@ -111,8 +167,8 @@ FlowState Flow::solve(const Interaction &interaction, const Vector &f, Recycled 
 
 double Flow::reciprocal_pressure_drop(const Interaction &interaction, const Vector &f, const FlowState &state,
                                       Recycled &traction) const {
-  return capsule::reciprocal_pressure_drop(interaction, f, double_density(state.velocity), solver_tolerance_,
-                                           traction);
+  return capsule::reciprocal_pressure_drop(interaction, load_with_friction(interaction, f, state.velocity),
+                                           double_density(state.velocity), solver_tolerance_, traction);
 }
 
 Vector Flow::outer_velocity(const Targets &points, const Interaction &interaction, const Vector &f,
@@ -121,17 +177,17 @@ Vector Flow::outer_velocity(const Targets &points, const Interaction &interactio
   if (density.size() > 0) // a membrane's motion as a whole has no layer outside
     density -= layer_identities(mesh_, interaction.shape()).whole_motion(density);
   return state.flow_rate * wall_.base_velocity(points) +
-         interaction.velocity_at(points, stokeslet_factor * f, density);
+         interaction.velocity_at(
+             points, stokeslet_factor * load_with_friction(interaction, f, state.velocity), density);
 }
 
 Matrix Flow::mobility(const Interaction &interaction, Recycled &recycled) const {
   const RowMatrix answer = interaction.answer_of_wall();
   Matrix single = single_with_wall(interaction, answer);
-  if (equal_viscosities_)
+  if (equal_viscosities_ && surface_viscosities_.empty())
     return single;
   const LayerIdentities identities = layer_identities(mesh_, interaction.shape());
-  recycled.inverse =
-      inverse_of(membrane_operator(identities.double_layer(double_with_wall(interaction, answer))));
+  recycled.inverse = inverse_of(membrane_operator(interaction, identities, answer, friction(interaction)));
   return recycled.inverse * identities.without_flux(single);
 }
 

@@ -10,18 +10,22 @@
 //
 //   - on the membranes (1 + lambda)/2 v = v_e + S_MM f/(8 pi) + D_MM (lambda - 1) v - C A^(-1) b
 //
-// A is inverted once (wall.hpp); lambda = 1 leaves no system to solve in a step, any other lambda one of the
+// Where a membrane is viscous, f has the load -R v of its own friction, too (membrane/surface_viscosity.hpp).
+// A is inverted once (wall.hpp); lambda = 1 without friction leaves no system to solve in a step, anything else one of the
 // membranes' size. Lengths, velocities and pressures are in the paper's scales. Derivation:
 // paper-notes/equations.md. Throws NumericsFailure: "unresolved" if the membranes' system is singular or does not
 // converge, "not-a-number" if the velocity is not a number.
 #include "flow/flow_state.hpp"
 #include "flow/interaction.hpp"
+#include "flow/layer_identities.hpp"
 #include "flow/recycled_solver.hpp"
+#include "membrane/surface_viscosity.hpp"
 
 namespace capsule {
 
 struct FlowParameters {
-  std::vector<double> viscosity_ratios = {}; // lambda of each membrane; empty: 1
+  std::vector<double> viscosity_ratios = {};              // lambda of each membrane; empty: 1
+  std::vector<SurfaceViscosity> surface_viscosities = {}; // of each membrane; empty: none
   Drive drive = {};
   std::vector<double> image_shifts = {};
 };
@@ -56,8 +60,18 @@ public:
   Matrix mobility(const Interaction &interaction, Recycled &recycled) const;
 
 private:
+  // Densities of both layers; an empty one is none.
+  struct Densities {
+    Vector single, dbl;
+  };
+  static Vector at_nodes(const Interaction &interaction, const Densities &densities);
+  static Vector at_wall(const Interaction &interaction, const Densities &densities);
+
   Vector double_density(const Vector &velocity) const;
-  Matrix membrane_operator(const Matrix &double_layer) const;
+  Matrix friction(const Interaction &interaction) const;
+  Vector load_with_friction(const Interaction &interaction, const Vector &f, const Vector &velocity) const;
+  Matrix membrane_operator(const Interaction &interaction, const LayerIdentities &identities,
+                           const RowMatrix &answer_of_wall, const Matrix &friction) const;
   Vector membrane_velocity(const Interaction &interaction, const Vector &right, Vector &at_wall,
                            Recycled &recycled) const;
 
@@ -67,6 +81,7 @@ private:
   std::vector<double> image_shifts_;
   Vector beta_, excess_viscosity_; // (1 + lambda)/2 and lambda - 1 of each component, 2N
   bool equal_viscosities_ = true;
+  std::vector<SurfaceViscosity> surface_viscosities_; // empty where no membrane is viscous
   double solver_tolerance_;
 };
 

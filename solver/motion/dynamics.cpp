@@ -15,8 +15,9 @@ Dynamics standard_dynamics(const Case &physics) {
   Dynamics dynamics;
   dynamics.scene = std::make_shared<const Scene>(make_scene(physics));
   const auto scene = dynamics.scene;
-  const auto flow = std::make_shared<const Flow>(
-      make_flow(scene->pore, physics.flow, scene->membrane.basis, choose_resolution(physics).flow));
+  const auto flow =
+      std::make_shared<const Flow>(make_flow(scene->pore, physics.flow, scene->membrane.basis,
+                                             choose_resolution(physics).flow, physics.membrane.viscosity));
   const auto recycled = dynamics.recycled;
   const FlowType type = physics.flow.type;
   const double capillary_number = physics.flow.capillary_number;

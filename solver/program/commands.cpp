@@ -347,12 +347,12 @@ ExitCode list_keys() {
   std::string section;
   for (const Key &key : keys()) {
     const std::string here = key.name.substr(0, key.name.find('.'));
-    fmt::print("{}{:<28}{}\n{:<28}default: {}; allowed: {}\n", here == section ? "" : "\n", key.name,
+    fmt::print("{}{:<33}{}\n{:<33}default: {}; allowed: {}\n", here == section ? "" : "\n", key.name,
                key.meaning, "", default_text(key), allowed_text(key));
     if (!key.scope.key.empty())
-      fmt::print("{:<28}only with {}\n", "", scope_text(key));
+      fmt::print("{:<33}only with {}\n", "", scope_text(key));
     for (const std::string &note : key.notes)
-      fmt::print("{:<28}{}\n", "", note);
+      fmt::print("{:<33}{}\n", "", note);
     section = here;
   }
   fmt::print("\n{:<26}values of another case file, relative to this one, that this one overrides;\n"

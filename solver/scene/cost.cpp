@@ -1,5 +1,6 @@
 #include "scene/cost.hpp"
 #include "case/case.hpp"
+#include "membrane/surface_viscosity.hpp"
 #include "scene/resolution.hpp"
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,9 @@ double estimated_seconds(const Case &physics) {
     const double stages = physics.time.scheme == Scheme::euler ? 1 : 4;
     return 1.6 * stages * 3e-3 * size * duration / physics.time.step;
   }
-  const double whole_entrance = physics.flow.viscosity_ratio == 1 ? 0.7 : 2;
+  const bool velocity_is_explicit =
+      physics.flow.viscosity_ratio == 1 && !is_viscous(physics.membrane.viscosity);
+  const double whole_entrance = velocity_is_explicit ? 0.7 : 2;
   return whole_entrance * std::pow(chosen.membrane_nodes / 64.0, 2) * duration / 25;
 }
 

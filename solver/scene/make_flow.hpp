@@ -8,6 +8,6 @@ namespace capsule {
 
 Wall make_wall(const std::optional<Pore> &pore, FlowType type, const FlowResolution &resolution);
 Flow make_flow(const std::optional<Pore> &pore, const FlowSpec &spec, const MeridianBasis &basis,
-               const FlowResolution &resolution);
+               const FlowResolution &resolution, const SurfaceViscosity &of_membrane = {});
 
 } // namespace capsule

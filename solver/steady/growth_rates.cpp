@@ -7,10 +7,14 @@
 namespace capsule {
 namespace {
 
-// The matrix in front of v' in (8.3); the identity for equal viscosities.
+// The matrix in front of v' in (8.3); the identity for equal viscosities without friction in the membrane.
 Matrix velocity_operator(const SteadySystem::Linearisation &linear, double viscosity_ratio) {
   const Eigen::Index n2 = linear.double_layer.rows();
-  return (1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio - 1) * linear.double_layer;
+  Matrix matrix =
+      (1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio - 1) * linear.double_layer;
+  if (linear.friction.size() > 0)
+    matrix += linear.single_layer * linear.friction;
+  return matrix;
 }
 
 Matrix small_motion(const SteadySystem::Linearisation &linear, double viscosity_ratio) {

@@ -7,7 +7,7 @@
 
 namespace capsule {
 
-// M, 2N x 2N, for any viscosity ratio.
+// M, 2N x 2N, for any viscosity ratio and the membrane's own viscosity.
 Matrix small_motion(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio);
 
 // All 2N - 2 rates.

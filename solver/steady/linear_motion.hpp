@@ -3,9 +3,10 @@
 // the nodes' velocity with respect to their position, for any viscosity ratio. Such a shape is steady, the
 // inner liquid is at rest in the capsule's frame, and the outer velocity has the gradient (q_t/eps) t n on the
 // membrane. A displacement d of the nodes then makes the velocity v' that solves
-//   beta v' = (lambda - 1) D v' - (1/2 + D) w + (1/(8 pi)) S f'
+//   beta v' = (lambda - 1) D v' - (1/2 + D) w + (1/(8 pi)) S (f' - R v')
 //   w  = (q_t/eps) (n.d) t          the jump of the disturbance's velocity across the undisplaced membrane
 //   f' = change of the load in d, carried to the undisplaced membrane
+//   R    friction in the membrane (membrane/surface_viscosity.hpp), on which a rigid motion makes no load
 // with the wall's answers in S and D (derivation: paper-notes/equations.md). f' and w of the interpolated
 // shape and load are integrated as they are at the quadrature points, not as interpolants of nodal values:
 // with one derivative of the load more than the motion has, those would be the worst resolved part. So this is

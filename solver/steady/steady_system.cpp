@@ -1,6 +1,7 @@
 #include "steady/steady_system.hpp"
 #include "base/failure.hpp"
 #include "membrane/load.hpp"
+#include "membrane/surface_viscosity.hpp"
 #include "scene/make_flow.hpp"
 #include <algorithm>
 #include <cmath>
@@ -156,6 +157,9 @@ SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) cons
   result.residual = equations(unknowns, velocity);
   result.single_layer = std::move(motion.single_layer);
   result.double_layer = std::move(motion.double_layer);
+  if (is_viscous(input_.membrane.viscosity))
+    result.friction = surface_friction(interaction.mesh().parts[0].at_panels, nodal_area(membrane_, position),
+                                       position, input_.membrane.viscosity);
   Matrix &jacobian = result.jacobian;
   jacobian = Matrix::Zero(2 * n + 2, 2 * n + 2);
   jacobian.topLeftCorner(2 * n, 2 * n) = motion.equal_viscosities;

@@ -43,6 +43,7 @@ public:
     Vector residual;
     Matrix jacobian;                   // 2N + 2 square
     Matrix single_layer, double_layer; // of linear_motion.hpp
+    Matrix friction;                   // R of surface_viscosity.hpp, or empty: small motions depend on it
   };
   Linearisation linearise(const Vector &unknowns) const;
   // The part of the equations that depends on the parameters where the shape does not change: the nodal load

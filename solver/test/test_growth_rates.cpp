@@ -1,6 +1,7 @@
 // Growth rates against the small motions of a sphere at rest in an unbounded liquid, whose waves are Legendre's
 // polynomials: rates that were derived on paper and computed apart from this program.
 #include "law/neo_hookean.hpp"
+#include "law/skalak.hpp"
 #include "steady/growth_rates.hpp"
 #include "steady/mesh_change.hpp"
 #include <boost/test/unit_test.hpp>
@@ -49,6 +50,36 @@ BOOST_AUTO_TEST_CASE(elastic_sphere_at_rest) {
         decay_rates(sphere_at_rest(neo_hookean, row.bending_ratio), row.viscosity_ratio);
     BOOST_TEST(distance_to(row.rate, rates) < 1e-6, "no rate of " << row.rate);
   }
+}
+
+BOOST_AUTO_TEST_CASE(viscous_sphere_at_rest) {
+  Case physics = sphere_at_rest(neo_hookean, 0);
+  physics.membrane.viscosity.shear = 1;
+  const Eigen::ArrayXd rates = decay_rates(physics, 1);
+  for (const double rate : {0.204339371, 1.7083879})
+    BOOST_TEST(distance_to(rate, rates) < 1e-6, "no rate of " << rate);
+}
+
+// As the area becomes constant 1/rate comes to 2 + 23 lambda/16 + mu_s for P_2 and to 2.125 + 1.9 lambda + mu_s for P_3,
+// in proportion to 1/C; the dilatational viscosity has no part in it.
+BOOST_AUTO_TEST_CASE(sphere_of_constant_area) {
+  for (const double lambda : {0.2, 1.0, 5.0})
+    for (const SurfaceViscosity viscosity : {SurfaceViscosity{0, 0}, {1, 0}, {10, 2}}) {
+      const double limits[] = {2 + 23 * lambda / 16 + viscosity.shear,
+                               2.125 + 1.9 * lambda + viscosity.shear};
+      for (const double limit : limits) {
+        const auto error = [&](double c) {
+          Case physics = sphere_at_rest({skalak, {c}}, 0);
+          physics.membrane.viscosity = viscosity;
+          return distance_to(limit, 1 / decay_rates(physics, lambda));
+        };
+        const double at_thousand = error(1e3), at_ten_thousand = error(1e4);
+        BOOST_TEST_MESSAGE(lambda << ' ' << viscosity.shear << ' ' << limit << ' ' << at_thousand << ' '
+                                  << at_ten_thousand);
+        BOOST_TEST(at_thousand < 3e-3 * limit);
+        BOOST_TEST(std::abs(at_thousand / at_ten_thousand - 10) < 0.3);
+      }
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -9,9 +9,10 @@ using namespace capsule;
 
 namespace {
 
-const std::vector<Dimension> named = {dimension::length,   dimension::viscosity, dimension::flow_rate,
-                                      dimension::pressure, dimension::tension,   dimension::energy,
-                                      dimension::velocity, dimension::time};
+const std::vector<Dimension> named = {
+    dimension::length,  dimension::viscosity, dimension::flow_rate,         dimension::pressure,
+    dimension::tension, dimension::energy,    dimension::surface_viscosity, dimension::velocity,
+    dimension::time};
 
 double si(const std::string &text, const Dimension &of) {
   const auto read = read_quantity(text, of);
