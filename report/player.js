@@ -101,7 +101,9 @@
     const scale = height / 4.4; // radii from wall to wall, and of the solid around
     const middle = height / 2, left = place - width / scale / 2;
     const at = (x, r) => [(x - left) * scale, middle - r * scale];
-    const wall_r = (x) => x < 0 ? Math.sqrt(1 + (x * Math.tan(chosen_run().opening_angle)) ** 2) : 1;
+    const { opening_angle, second_mouth } = chosen_run();
+    const outside = (x) => Math.max(-x, second_mouth === null ? 0 : x - second_mouth, 0); // of the nearer mouth
+    const wall_r = (x) => Math.sqrt(1 + (outside(x) * Math.tan(opening_angle)) ** 2);
     pen.fillStyle = style("--solid");
     pen.strokeStyle = style("--ink");
     pen.lineWidth = 1.5;

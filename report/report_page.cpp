@@ -309,6 +309,8 @@ std::string player_data(const std::vector<fs::path> &runs) {
         {{"case", title.is_null() ? run.parent_path().filename().string() : title.get<std::string>()},
          {"name", capsule_name(parameters)},
          {"opening_angle", parameters.at("pore.opening_angle_deg").get<double>() * std::numbers::pi / 180},
+         {"second_mouth",
+          parameters.at("pore.shape") == "two-mouths" ? parameters.at("pore.exit_x") : Json()},
          {"series",
           {{"x_g", rounded(series.at("x_g"))}, {"pressure_drop", rounded(series.at("pressure_drop"))}}},
          {"frames", frames}});

@@ -76,6 +76,12 @@ printf '%s\n%s\ncapsule.start_x = 16\n' "$good" "$two_mouths" |
   bad '5:19: error: the capsule starts behind the pore, at x = 16'
 printf '%s\n%s\nuntil.x_g = 24.5\n' "$good" "$two_mouths" |
   bad '5:13: error: at until.x_g = 24.5 the capsule would cross the end of its way'
+printf '%s\n%s\noutput.transit_to = 20\n' "$good" "$two_mouths" |
+  bad '5:21: error: the capsule never comes to x_g = 20'
+printf '%s\n%s\noutput.transit_from = 3\noutput.transit_to = 2\n' "$good" "$two_mouths" |
+  bad '6:21: error: the transit ends at 2, before it begins'
+echo "$good
+output.transit_from = 0" | bad '4:23: error: output.transit_from means nothing to pore.shape = "hyperbolic"'
 printf '%s\n%s\npore.entrance_distance = 8\n' "$good" "$two_mouths" |
   bad '5:26: error: reservoirs of 8 radii are too short for two mouths'
 echo "$good

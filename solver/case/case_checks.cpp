@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <utility>
 
 namespace capsule {
 namespace {
@@ -133,6 +134,17 @@ struct Checks {
                             number_text(end))
               : fmt::format("pore.exit_x is {}", number_text(end)));
     const double last = c.until.x_g.value_or(end);
+    if (c.output.transit_from && c.output.transit_to && *c.output.transit_from >= *c.output.transit_to)
+      chosen.complain(
+          {"output.transit_to", "output.transit_from"},
+          fmt::format("the transit ends at {}, before it begins", number_text(*c.output.transit_to)),
+          fmt::format("output.transit_from is {}", number_text(*c.output.transit_from)));
+    for (const auto &[key, place] : {std::pair("output.transit_from", c.output.transit_from),
+                                     std::pair("output.transit_to", c.output.transit_to)})
+      if (place && (*place < c.capsule.start_x || *place > last))
+        chosen.complain(
+            {key}, fmt::format("the capsule never comes to x_g = {}", number_text(*place)),
+            fmt::format("its way goes from {} to {}", number_text(c.capsule.start_x), number_text(last)));
     for (const double x : c.output.profiles_at_x_g)
       if (x < c.capsule.start_x || x > last)
         chosen.complain(

@@ -54,6 +54,10 @@ Key in_a_pore(Key key) {
   return only_with({"flow.type", {"pore"}}, std::move(key));
 }
 
+Key between_mouths(Key key) {
+  return of_motion(only_with({"pore.shape", {"two-mouths"}, "flow.type"}, std::move(key)));
+}
+
 // Below these a march takes forever, or rows without end: the shortest one that moves anything, and steps by which a time of
 // hundreds can still grow.
 constexpr double shortest_time = 1e-6, shortest_step = 1e-12;
@@ -268,6 +272,11 @@ std::vector<Key> output_keys() {
                  member<std::vector<double>>(CAPSULE_AT(output.profiles_at_time)), at_least(0), "none"}),
       in_a_pore({"output.resistance", "whether the electric resistance that the capsule adds is reported",
                  member<bool>(CAPSULE_AT(output.resistance)), any_number, "false"}),
+      between_mouths({"output.transit_from", "x_g from which on the time of the transit is taken",
+                      member<std::optional<double>>(CAPSULE_AT(output.transit_from)), any_number, "-1"}),
+      between_mouths({"output.transit_to", "x_g up to which the time of the transit is taken",
+                      member<std::optional<double>>(CAPSULE_AT(output.transit_to)), any_number,
+                      "1 behind pore.exit_x"}),
   };
 }
 

@@ -103,6 +103,7 @@ struct OutputSpec {
   std::vector<double> profiles_at_x_g;
   std::vector<double> profiles_at_time;
   bool resistance = false;
+  std::optional<double> transit_from, transit_to; // none: a radius outside of the mouths
 };
 
 } // namespace capsule

@@ -1,5 +1,6 @@
 #include "motion/error_estimate.hpp"
 #include "observe/quantities.hpp"
+#include "observe/transit.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -106,6 +107,19 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
     if (quantity.error == ErrorEstimate::by_value_itself)
       error[quantity.name] = std::abs(fine.back().*quantity.value);
   return error;
+}
+
+void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fine,
+                           const std::vector<SeriesRow> &coarse, std::map<std::string, double> &errors) {
+  const auto transit = transit_of(physics, fine), other = transit_of(physics, coarse);
+  if (!transit || !other)
+    return;
+  for (const TransitQuantity &quantity : transit_quantities()) {
+    const std::string name = std::string("transit_") + quantity.name;
+    const double difference = std::abs((*transit).*quantity.value - (*other).*quantity.value);
+    if (std::isfinite(difference))
+      errors[name] = safety_of(name, physics.time.scheme) * difference;
+  }
 }
 
 void add_errors_of_the_end(const std::vector<SeriesRow> &fine, const std::vector<SeriesRow> &coarse,

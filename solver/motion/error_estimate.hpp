@@ -1,7 +1,7 @@
 #pragma once
 // Bounds of a march's errors from its differences to a slightly coarser one (motion; what was weighed:
 // paper-notes/methods.md).
-#include "case/parameters.hpp"
+#include "case/case.hpp"
 #include "observe/records.hpp"
 #include <map>
 #include <string>
@@ -15,6 +15,10 @@ namespace capsule {
 std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine,
                                               const std::vector<SeriesRow> &coarse, bool by_x_g,
                                               Scheme scheme);
+
+// Of the transit's numbers, "transit_time" ..., which both marches have.
+void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fine,
+                           const std::vector<SeriesRow> &coarse, std::map<std::string, double> &errors);
 
 // Where both marches end by themselves: "time" and "x_g" of the last rows.
 void add_errors_of_the_end(const std::vector<SeriesRow> &fine, const std::vector<SeriesRow> &coarse,

@@ -17,7 +17,8 @@ Case companion(const Case &input) {
   coarse.mesh.wall = 9 * chosen.wall_points / 10;
   coarse.time.step = input.time.step / 0.9; // as stable on its nodes as the fine one's
   coarse.time.tolerance = 5 * chosen.time_tolerance;
-  coarse.output = {.profiles_at_x_g = {}, .profiles_at_time = {}, .resistance = input.output.resistance};
+  coarse.output.profiles_at_x_g.clear();
+  coarse.output.profiles_at_time.clear();
   return coarse;
 }
 
@@ -91,6 +92,7 @@ Outcome march(const Case &input, const Checkpoint &from, const Control &control)
   else if (coarse.status == Status::reached || coarse.status == Status::burst) {
     outcome.error_estimate = estimate_errors(outcome.last.series, coarse.last.series,
                                              input.until.x_g.has_value(), input.time.scheme);
+    add_errors_of_transit(input, outcome.last.series, coarse.last.series, outcome.error_estimate);
     if (bursts && coarse.status == Status::burst)
       add_errors_of_the_end(outcome.last.series, coarse.last.series, input.time.scheme,
                             outcome.error_estimate);

@@ -1,6 +1,7 @@
 #include "output/paraview.hpp"
 #include "base/text.hpp"
 #include "observe/quantities.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -19,6 +20,35 @@ std::vector<Eigen::Index> pictured_points(const Profile &profile) {
   return chosen;
 }
 
+constexpr int turns = 32;
+
+// A meridian turned about the axis, with fields of the whole and at its points.
+std::string revolved(const Vector &x, const Vector &r, const std::string &of_all,
+                     const std::string &at_points) {
+  const Eigen::Index points = x.size();
+  std::string positions, connectivity, offsets;
+  for (Eigen::Index i = 0; i < points; ++i)
+    for (int k = 0; k < turns; ++k) {
+      const double azimuth = 2 * std::numbers::pi * k / turns;
+      positions +=
+          fmt::format("{:.6g} {:.6g} {:.6g}\n", x[i], r[i] * std::cos(azimuth), r[i] * std::sin(azimuth));
+    }
+  const auto point = [](Eigen::Index i, int k) { return i * turns + k % turns; };
+  for (Eigen::Index i = 0; i + 1 < points; ++i) {
+    for (int k = 0; k <= turns; ++k)
+      connectivity += fmt::format("{} {}\n", point(i, k), point(i + 1, k));
+    offsets += fmt::format("{}\n", (i + 1) * 2 * (turns + 1));
+  }
+  return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n{}"
+                     "<Piece NumberOfPoints=\"{}\" NumberOfStrips=\"{}\">\n{}"
+                     "<Points>\n<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">\n{}"
+                     "</DataArray>\n</Points>\n<Strips>\n"
+                     "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n{}</DataArray>\n"
+                     "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n{}</DataArray>\n"
+                     "</Strips>\n</Piece>\n</PolyData>\n</VTKFile>\n",
+                     of_all, points * turns, points - 1, at_points, positions, connectivity, offsets);
+}
+
 } // namespace
 
 std::string surface_name(std::size_t index) {
@@ -27,22 +57,7 @@ std::string surface_name(std::size_t index) {
 
 // A strip of triangles between each two points.
 std::string surface_vtp(const Profile &profile, const std::string &along) {
-  constexpr int turns = 32;
   const std::vector<Eigen::Index> chosen = pictured_points(profile);
-  const auto points = std::ssize(chosen);
-  std::string positions, connectivity, offsets;
-  for (const Eigen::Index i : chosen)
-    for (int k = 0; k < turns; ++k) {
-      const double azimuth = 2 * std::numbers::pi * k / turns;
-      positions += fmt::format("{:.6g} {:.6g} {:.6g}\n", profile.x[i], profile.r[i] * std::cos(azimuth),
-                               profile.r[i] * std::sin(azimuth));
-    }
-  const auto point = [](Eigen::Index i, int k) { return i * turns + k % turns; };
-  for (Eigen::Index i = 0; i + 1 < points; ++i) {
-    for (int k = 0; k <= turns; ++k)
-      connectivity += fmt::format("{} {}\n", point(i, k), point(i + 1, k));
-    offsets += fmt::format("{}\n", (i + 1) * 2 * (turns + 1));
-  }
   std::string fields;
   for (const ProfileQuantity &quantity : profile_quantities()) {
     const std::string_view name = quantity.name;
@@ -60,14 +75,23 @@ std::string surface_vtp(const Profile &profile, const std::string &along) {
                                                "NumberOfTuples=\"1\" format=\"ascii\">\n{}\n"
                                                "</DataArray>\n</FieldData>\n",
                                                along, number_text(profile.time));
-  return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n{}"
-                     "<Piece NumberOfPoints=\"{}\" NumberOfStrips=\"{}\">\n<PointData>\n{}</PointData>\n"
-                     "<Points>\n<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">\n{}"
-                     "</DataArray>\n</Points>\n<Strips>\n"
-                     "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n{}</DataArray>\n"
-                     "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n{}</DataArray>\n"
-                     "</Strips>\n</Piece>\n</PolyData>\n</VTKFile>\n",
-                     of_all, points * turns, points - 1, fields, positions, connectivity, offsets);
+  return revolved(profile.x(chosen), profile.r(chosen), of_all,
+                  fmt::format("<PointData>\n{}</PointData>\n", fields));
+}
+
+std::string wall_vtp(const Pore &pore) {
+  constexpr int points = 200;
+  constexpr double outside = 10;
+  const bool tube = pore.shape == PoreShape::tube;
+  const double first = std::max(pore.exit_arc, -outside);
+  const double last = tube ? pore.entrance_arc : std::min(pore.entrance_arc, pore.exit_x + outside);
+  Vector x(points), r(points);
+  for (Eigen::Index i = 0; i < points; ++i) {
+    const WallPoint point = wall_point(pore, first + (last - first) * static_cast<double>(i) / (points - 1));
+    x[i] = point.x;
+    r[i] = point.r;
+  }
+  return revolved(x, r, "", "");
 }
 
 std::string surfaces_pvd(const std::vector<Profile> &profiles, const std::string &along) {

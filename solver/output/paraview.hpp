@@ -1,6 +1,7 @@
 #pragma once
-// The profiles of a run as surfaces of revolution for ParaView, in VTK's XML: triangles with the stretches and tensions
-// at their corners, and the collection of all instants. Lengths are scaled with R_t, tensions with G.
+// The profiles of a run and the wall as surfaces of revolution for ParaView, in VTK's XML: triangles, of a membrane with the
+// stretches and tensions at their corners, and the collection of all instants. Lengths are scaled with R_t, tensions with G.
+#include "geometry/pore.hpp"
 #include "observe/records.hpp"
 #include <string>
 #include <vector>
@@ -14,5 +15,8 @@ std::string surface_name(std::size_t index);
 std::string surface_vtp(const Profile &profile, const std::string &along = "");
 // Of a branch their numbers stand for times: beyond a fold the key's value goes back, and readers sort by time.
 std::string surfaces_pvd(const std::vector<Profile> &profiles, const std::string &along = "");
+
+// The wall up to ten radii outside of its mouths, or all of a tube, turned about the axis.
+std::string wall_vtp(const Pore &pore);
 
 } // namespace capsule

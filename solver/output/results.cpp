@@ -31,8 +31,9 @@ bool is_surface(const std::string &name) {
 
 // Names that a run may give to its files.
 bool is_result(const fs::path &file) {
-  constexpr std::array names{"summary.json",  "series.csv", "series_physical.csv", "profiles.csv",
-                             "resolved.toml", "run.json",   "membrane.pvd",        "branch.csv"};
+  constexpr std::array names{"summary.json", "series.csv",    "series_physical.csv",
+                             "profiles.csv", "resolved.toml", "run.json",
+                             "membrane.pvd", "branch.csv",    "wall.vtp"};
   const std::string name = file.filename().string();
   return std::ranges::find(names, name) != names.end() || is_surface(name);
 }
@@ -92,6 +93,8 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
     files.emplace_back("branch.csv", branch_csv(outcome));
   for (std::size_t i = 0; i < profiles.size(); ++i)
     files.emplace_back(surface_name(i), surface_vtp(profiles[i], outcome.along));
+  if (const auto pore = task.motion ? make_pore(physics.pore) : std::nullopt)
+    files.emplace_back("wall.vtp", wall_vtp(*pore));
   files.emplace_back("membrane.pvd", surfaces_pvd(profiles, outcome.along));
   files.emplace_back("resolved.toml", resolved_toml(physics));
   files.emplace_back("summary.json", summary_text(physics, outcome, effort));

@@ -5,6 +5,7 @@
 #include "case/physical.hpp"
 #include "observe/outcome.hpp"
 #include "observe/quantities.hpp"
+#include "observe/transit.hpp"
 #include "output/checkpoint.hpp"
 #include "output/tables.hpp"
 #include "scene/resolution.hpp"
@@ -90,6 +91,9 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
     json["x_g_at_" + name] = largest && has_pore ? finite_or_null(largest->x_g) : Json();
     json["S_at_" + name] = largest ? finite_or_null(largest->S) : Json();
   }
+  if (const auto transit = moved ? transit_of(physics, series) : std::nullopt)
+    for (const TransitQuantity &quantity : transit_quantities())
+      json["transit"][quantity.name] = finite_or_null((*transit).*quantity.value);
   if (in_physical_units(physics, outcome))
     json["physical"] = physical_json(physics, json);
   for (const auto &[quantity, value] : outcome.further)
@@ -144,6 +148,10 @@ Summary read_summary(const std::filesystem::path &directory) {
     for (const auto &[name, value] : json->items())
       if (value.is_number())
         summary.quantities[name] = value;
+    if (json->contains("transit"))
+      for (const auto &[name, value] : json->at("transit").items())
+        if (value.is_number())
+          summary.quantities["transit_" + name] = value;
     for (const auto &[name, value] : json->at("error_estimate").items())
       if (value.is_number())
         summary.error_estimate[name] = value;

@@ -1,0 +1,95 @@
+#include "observe/transit.hpp"
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+
+namespace capsule {
+namespace {
+
+constexpr std::array quantities{
+    TransitQuantity{"time", "from `output.transit_from` to `output.transit_to`", &Transit::time},
+    TransitQuantity{"pulse_height", "the largest resistance that the capsule adds", &Transit::pulse_height},
+    TransitQuantity{"pulse_width", "time for which it exceeds half of that", &Transit::pulse_width},
+    TransitQuantity{"pulse_rise", "time in which it rises from 10 to 90 %", &Transit::pulse_rise},
+    TransitQuantity{"pulse_fall", "time in which it falls from 90 to 10 %", &Transit::pulse_fall}};
+
+using Series = std::vector<SeriesRow>;
+
+// When the capsule comes to x: the cubic through two rows with the slopes 1/v_g.
+double time_at(const Series &series, double x) {
+  const auto after = std::ranges::find_if(series, [x](const SeriesRow &row) { return row.x_g >= x; });
+  if (after == series.end() || (after == series.begin() && after->x_g > x))
+    return Transit::none;
+  if (after->x_g == x)
+    return after->time;
+  const auto before = after - 1;
+  const double step = after->x_g - before->x_g, s = (x - before->x_g) / step;
+  const double rise = after->time - before->time;
+  const double first = step / before->v_g - rise, last = rise - step / after->v_g;
+  return before->time + s * rise + s * (1 - s) * ((1 - s) * first + s * last);
+}
+
+// When the resistance passes a level between rows k and k + 1: along the way it is the cubic through four rows.
+double time_of_level(const Series &series, std::size_t k, double level) {
+  const std::size_t first = std::min(k - std::min<std::size_t>(k, 1), series.size() - 4);
+  const auto resistance = [&](double x) {
+    double sum = 0;
+    for (std::size_t i = first; i < first + 4; ++i) {
+      double weight = 1;
+      for (std::size_t j = first; j < first + 4; ++j)
+        if (j != i)
+          weight *= (x - series[j].x_g) / (series[i].x_g - series[j].x_g);
+      sum += weight * series[i].resistance;
+    }
+    return sum;
+  };
+  constexpr unsigned digits = 40; // binary
+  const auto [before, after] =
+      boost::math::tools::bisect([&](double x) { return resistance(x) - level; }, series[k].x_g,
+                                 series[k + 1].x_g, boost::math::tools::eps_tolerance<double>(digits));
+  return time_at(series, (before + after) / 2);
+}
+
+double first_above(const Series &series, double level) {
+  const auto row = std::ranges::find_if(series, [&](const SeriesRow &r) { return r.resistance >= level; });
+  if (row == series.begin() || row == series.end())
+    return Transit::none;
+  return time_of_level(series, static_cast<std::size_t>(row - series.begin()) - 1, level);
+}
+
+double last_above(const Series &series, double level) {
+  std::size_t k = series.size() - 1;
+  while (k > 0 && series[k].resistance < level)
+    --k;
+  return k + 1 == series.size() || k == 0 ? Transit::none : time_of_level(series, k, level);
+}
+
+} // namespace
+
+std::optional<Transit> transit_of(const Case &physics, const Series &series) {
+  constexpr std::size_t fewest_rows = 4;
+  if (physics.pore.shape != PoreShape::two_mouths)
+    return std::nullopt;
+  Transit transit;
+  if (series.size() < fewest_rows)
+    return transit;
+  constexpr double outside = 1;
+  transit.time = time_at(series, physics.output.transit_to.value_or(physics.pore.exit_x + outside)) -
+                 time_at(series, physics.output.transit_from.value_or(-outside));
+  if (!physics.output.resistance)
+    return transit;
+  const double height = largest_on_the_way(series, &SeriesRow::resistance, &SeriesRow::x_g)->value;
+  constexpr double half = 0.5, low = 0.1, high = 0.9;
+  transit.pulse_height = height;
+  transit.pulse_width = last_above(series, half * height) - first_above(series, half * height);
+  transit.pulse_rise = first_above(series, high * height) - first_above(series, low * height);
+  transit.pulse_fall = last_above(series, low * height) - last_above(series, high * height);
+  return transit;
+}
+
+std::span<const TransitQuantity> transit_quantities() {
+  return quantities;
+}
+
+} // namespace capsule
