@@ -20,7 +20,8 @@ struct Parsed {
   std::size_t open_quote = 0; // the line of a quote that is not closed; 0: none
 };
 
-Parsed parse(std::string_view text) {
+// `comment`: what a line begins with that is one field; 0: none.
+Parsed parse(std::string_view text, char comment = '\0') {
   Parsed parsed{{{1, {""}}}};
   std::size_t line = 1;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -30,6 +31,12 @@ Parsed parse(std::string_view text) {
     const bool line_end = c == '\n' || c == '\r';
     line += line_end ? 1 : 0;
     std::vector<std::string> &fields = parsed.rows.back().fields;
+    const bool in_comment = comment != '\0' && parsed.open_quote == 0 && fields.size() == 1 &&
+                            trimmed(fields[0] + c).starts_with(comment);
+    if (in_comment && !line_end) {
+      fields[0] += c;
+      continue;
+    }
     if (parsed.open_quote > 0 && c == '"' && next == '"')
       fields.back() += text[++i];
     else if (parsed.open_quote > 0 && c == '"')
@@ -81,6 +88,10 @@ std::string csv_error(const fs::path &file, std::size_t line, const std::string 
 }
 
 std::vector<CsvRow> read_csv(const fs::path &file) {
+  return read_csv(file, '\0');
+}
+
+std::vector<CsvRow> read_csv(const fs::path &file, char comment) {
   std::string text = read_file(file);
   const auto refuse = [&](std::size_t line, const std::string &message) {
     throw InputError(csv_error(file, line, message) + how_to_save + '\n');
@@ -91,14 +102,20 @@ std::vector<CsvRow> read_csv(const fs::path &file) {
   }
   if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; text.starts_with(byte_order_mark))
     text.erase(0, byte_order_mark.size());
-  auto [rows, open_quote] = parse(text);
+  auto [rows, open_quote] = parse(text, comment);
   if (open_quote > 0)
     refuse(open_quote, "this quote is not closed");
   std::erase_if(rows, is_blank);
-  if (!rows.empty() && has_other_separators(rows[0]))
-    refuse(rows[0].line, "semicolons or tabs stand between the fields");
+  const auto names = std::ranges::find_if(rows, [&](const CsvRow &row) {
+    return comment == '\0' || !trimmed(row.fields[0]).starts_with(comment);
+  });
+  if (names == rows.end())
+    return rows;
+  if (has_other_separators(*names))
+    refuse(names->line, "semicolons or tabs stand between the fields");
+  drop_empty_end(*names, 1);
   for (CsvRow &row : rows)
-    drop_empty_end(row, &row == rows.data() ? 1 : rows[0].fields.size());
+    drop_empty_end(row, names->fields.size());
   return rows;
 }
 

@@ -19,6 +19,8 @@ struct CsvRow {
 // with the line and how to save the file, if it is not UTF-8, if semicolons or tabs stand between the fields, or if a
 // quote is not closed.
 std::vector<CsvRow> read_csv(const std::filesystem::path &file);
+// Lines that begin with this character are rows of one field, as they stand; the first of the others names the columns.
+std::vector<CsvRow> read_csv(const std::filesystem::path &file, char comment);
 
 // The columns of a table of numbers, by name. Throws as read_csv, and InputError, with its row and column, for what is no
 // number, or none that is allowed.

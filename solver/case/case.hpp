@@ -19,6 +19,7 @@ struct Case {
   UntilSpec until;
   PhysicalSpec physical;
   OutputSpec output;
+  FitSpec fit;
 };
 
 } // namespace capsule

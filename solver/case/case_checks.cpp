@@ -1,9 +1,11 @@
 #include "case/case_checks.hpp"
 #include "base/text.hpp"
 #include "case/case.hpp"
+#include "case/keys.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <numbers>
 #include <utility>
 
@@ -187,8 +189,57 @@ struct Checks {
     else if (c.pore.shape == PoreShape::none)
       chosen.complain({"pore.shape"}, "a pore flow needs a pore",
                       "pore.shape = \"none\" goes with flow.type = \"extension\"");
+    if (task.fit)
+      check_fit();
     if (task.motion)
       check_way();
+  }
+
+  void check_fit() {
+    const FitSpec &fit = physics.fit;
+    if (physics.flow.type != FlowType::pore)
+      chosen.complain({"flow.type"}, "a fit is of a capsule in a tube");
+    std::vector<std::string> names, parameters;
+    for (const Law *law : laws())
+      names.emplace_back(law->name);
+    for (const std::string &law : fit.laws)
+      if (std::ranges::find(names, law) == names.end())
+        chosen.complain({"fit.laws"}, fmt::format("unknown law '{}'", law), meant(law, names));
+    for (const Key &key : keys())
+      if (key.steady == SteadyRole::parameter)
+        parameters.push_back(key.name);
+    for (const std::string &unknown : fit.unknowns) {
+      if (std::ranges::find(parameters, unknown) == parameters.end())
+        chosen.complain({"fit.unknowns"}, fmt::format("'{}' is nothing that a fit can find", unknown),
+                        meant(unknown, parameters));
+      else if (std::ranges::count(fit.unknowns, unknown) > 1)
+        chosen.complain({"fit.unknowns"}, fmt::format("'{}' stands twice", unknown));
+      else if (!is_of_a_candidate(*find_key(unknown)))
+        chosen.complain({"fit.unknowns", "fit.laws"},
+                        fmt::format("'{}' means nothing to the laws that are tried", unknown),
+                        fmt::format("it belongs to {}", scope_text(*find_key(unknown))));
+    }
+    for (const auto &[key, bounds] : fit.bounds)
+      if (std::ranges::find(fit.unknowns, key) == fit.unknowns.end())
+        chosen.complain({"fit.bounds"}, fmt::format("'{}' is not unknown", key),
+                        "fit.unknowns lists what is to be found");
+    if (fit.pixel.si > 0 && physics.physical.tube_radius.si == 0)
+      chosen.complain({"fit.pixel"}, "fit.pixel needs physical.tube_radius");
+  }
+
+  static std::string meant(const std::string &word, const std::vector<std::string> &words) {
+    const std::string near = nearest_word(word, words);
+    return near.empty() ? fmt::format("one of {}", fmt::join(words, ", "))
+                        : fmt::format("did you mean '{}'?", near);
+  }
+
+  bool is_of_a_candidate(const Key &key) const {
+    const std::vector<std::string> &tried = physics.fit.laws;
+    if (tried.empty() || key.scope.key != "membrane.law")
+      return means_something(key, physics);
+    return std::ranges::any_of(key.scope.values, [&](const std::string &law) {
+      return std::ranges::find(tried, law) != tried.end();
+    });
   }
 
   // From the start to the end of a motion.

@@ -80,7 +80,8 @@ struct Builder {
   void leave_out(Usage &usage) {
     for (const Assignment &assignment : chosen.reader.assignments) {
       const Key &key = *assignment.key;
-      if (means_something(key, run.physics)) {
+      const bool of_candidates = task.fit && key.scope.key == "membrane.law";
+      if (means_something(key, run.physics) || of_candidates) {
         usage.useful.insert(key.name);
         continue;
       }
@@ -127,13 +128,13 @@ struct Builder {
         stand_in(*key);
     if (!has_physical(run.physics))
       return;
-    for (const PhysicalComplaint &why : physical_complaints(run.physics)) {
+    for (const PhysicalComplaint &why : physical_complaints(run.physics, task.fit)) {
       std::vector<std::string> places = why.keys;
       std::ranges::copy(physical_keys(), std::back_inserter(places));
       chosen.complain(places, why.message, "`capsule keys` tells what physical.* means");
       physical_ok = false;
     }
-    for (const Derived &value : derived_values(run.physics)) {
+    for (const Derived &value : derived_values(run.physics, task.fit)) {
       derived.push_back(value.key);
       if (physical_ok)
         take_derived(value);
@@ -164,6 +165,8 @@ struct Builder {
   // Defaults that depend on other keys.
   void complete() {
     Case &c = run.physics;
+    if (task.fit && c.fit.unknowns.empty())
+      c.fit.unknowns = {"capsule.radius", "flow.capillary_number"};
     if (c.time.scheme == Scheme::euler && !chosen.given("time.step"))
       c.time.step = 2.5e-4;
     if (c.flow.type == FlowType::extension) {
@@ -175,11 +178,18 @@ struct Builder {
       c.until.x_g = c.pore.shape == PoreShape::two_mouths ? c.pore.exit_x + 4 : 11.84;
   }
 
+  // By a fit.
+  bool is_to_be_found(const std::string &key) const {
+    const FitSpec &fit = run.physics.fit;
+    return task.fit && (std::ranges::find(fit.unknowns, key) != fit.unknowns.end() ||
+                        (key == "membrane.law" && !fit.laws.empty()));
+  }
+
   bool has_required() {
     bool all = true;
     for (const Key &key : keys()) {
       const bool scale = key.name == "capsule.radius" && run.physics.flow.type == FlowType::extension;
-      if (!key.required || chosen.given(key.name) || scale ||
+      if (!key.required || chosen.given(key.name) || scale || is_to_be_found(key.name) ||
           std::ranges::find(derived, key.name) != derived.end())
         continue;
       all = false;
@@ -239,7 +249,8 @@ void build_runs(Family &family, const Task &task) {
     builder.name_run();
     builder.derive();
     builder.complete();
-    if (builder.has_required() && builder.physical_ok && valid) {
+    const bool whole = builder.has_required() || task.fit; // what a fit misses may be a misspelt unknown
+    if (whole && builder.physical_ok && valid) {
       check_together(builder.chosen, builder.run.physics, task);
       family.usage.useful.merge(usage.useful);
       family.usage.useless.merge(usage.useless);

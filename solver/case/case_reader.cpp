@@ -48,6 +48,12 @@ Value to_value(const toml::node &node) {
   if (const auto *number = node.as_floating_point())
     return number->get();
   if (const toml::array *array = node.as_array()) {
+    if (!array->empty() && array->is_homogeneous(toml::node_type::string)) {
+      Words words;
+      for (const toml::node &entry : *array)
+        words.push_back(entry.as_string()->get());
+      return words;
+    }
     std::vector<double> list;
     for (const toml::node &entry : *array) {
       if (!entry.is_number())
@@ -55,6 +61,11 @@ Value to_value(const toml::node &node) {
       list.push_back(entry.value<double>().value());
     }
     return list;
+  }
+  if (const toml::table *table = node.as_table()) {
+    Intervals intervals;
+    if (read_intervals(*table, "", intervals))
+      return intervals;
   }
   return Unsupported{type_in_words(node)};
 }
@@ -125,7 +136,8 @@ std::vector<GivenValue> given_values(CaseReader &reader, std::size_t source, con
 }
 
 bool can_be_swept(const Key &key) {
-  return !std::holds_alternative<Member<std::string>>(key.field) &&
+  return !std::holds_alternative<Member<std::string>>(key.field) && section_of(key.name) != "fit" &&
+         !std::holds_alternative<Member<Words>>(key.field) &&
          !std::holds_alternative<Member<std::vector<double>>>(key.field);
 }
 

@@ -33,6 +33,8 @@ std::string what_counts(const Case &physics, const Task &task) {
   return toml_of(in_si, [&](const Key &key) {
     if (key.name == "title" || key.name == "paper")
       return false;
+    if (is_of_fits(key))
+      return task.fit;
     return task.motion || key.steady != SteadyRole::none;
   });
 }
@@ -40,7 +42,7 @@ std::string what_counts(const Case &physics, const Task &task) {
 } // namespace
 
 std::string resolved_toml(const Case &physics) {
-  return toml_of(physics, [](const Key & /*key*/) { return true; });
+  return toml_of(physics, [](const Key &key) { return !is_of_fits(key); });
 }
 
 bool same_input(const Case &a, const Case &b, const Task &task) {

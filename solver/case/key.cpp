@@ -19,8 +19,10 @@ std::string described(const Value &value) {
     return other->what;
   if (const auto *text = std::get_if<std::string>(&value))
     return "the text '" + *text + "'";
-  if (std::holds_alternative<std::vector<double>>(value))
+  if (std::holds_alternative<std::vector<double>>(value) || std::holds_alternative<Words>(value))
     return "a list";
+  if (std::holds_alternative<Intervals>(value))
+    return "a table";
   return value_text(value);
 }
 
@@ -113,6 +115,24 @@ struct Setter {
     member.in(physics) = std::move(sorted);
     return std::nullopt;
   }
+  std::optional<Complaint> operator()(const Member<Words> &member) const {
+    const auto *words = std::get_if<Words>(&value);
+    if (!words)
+      return wrong_type(key, "a list of texts", value);
+    member.in(physics) = *words;
+    return std::nullopt;
+  }
+  std::optional<Complaint> operator()(const Member<Intervals> &member) const {
+    const auto *intervals = std::get_if<Intervals>(&value);
+    if (!intervals)
+      return wrong_type(key, "a table of intervals", value, "as \"capsule.radius\" = [0.8, 0.9]");
+    for (const auto &[name, ends] : *intervals)
+      if (ends.size() != 2 || !(ends[0] <= ends[1]))
+        return Complaint{fmt::format("{}: '{}' needs two ascending numbers", key.name, name),
+                         "as \"capsule.radius\" = [0.8, 0.9]"};
+    member.in(physics) = *intervals;
+    return std::nullopt;
+  }
   std::optional<Complaint> operator()(const Measured &measured) const {
     const auto *text = std::get_if<std::string>(&value);
     if (!text)
@@ -162,6 +182,12 @@ struct Getter {
   std::optional<Value> operator()(const Member<std::vector<double>> &member) const {
     return member.of(physics).empty() ? std::nullopt : std::optional<Value>(member.of(physics));
   }
+  std::optional<Value> operator()(const Member<Words> &member) const {
+    return member.of(physics).empty() ? std::nullopt : std::optional<Value>(member.of(physics));
+  }
+  std::optional<Value> operator()(const Member<Intervals> &member) const {
+    return member.of(physics).empty() ? std::nullopt : std::optional<Value>(member.of(physics));
+  }
   std::optional<Value> operator()(const Measured &measured) const {
     const Quantity &quantity = measured.member.of(physics);
     return quantity.si == 0 ? std::nullopt
@@ -196,6 +222,17 @@ struct Writer {
     std::vector<std::string> texts;
     std::ranges::transform(list, std::back_inserter(texts), number_text);
     return fmt::format("[{}]", fmt::join(texts, ", "));
+  }
+  std::string operator()(const Words &list) const {
+    std::vector<std::string> texts;
+    std::ranges::transform(list, std::back_inserter(texts), toml_string);
+    return fmt::format("[{}]", fmt::join(texts, ", "));
+  }
+  std::string operator()(const Intervals &intervals) const {
+    std::vector<std::string> texts;
+    for (const auto &[name, ends] : intervals)
+      texts.push_back(fmt::format("{} = {}", toml_string(name), (*this)(ends)));
+    return fmt::format("{{{}}}", fmt::join(texts, ", "));
   }
 };
 
@@ -235,6 +272,10 @@ std::string allowed_text(const Key &key) {
     return "true or false";
   if (std::holds_alternative<Member<std::string>>(key.field))
     return "any text";
+  if (std::holds_alternative<Member<Words>>(key.field))
+    return "a list of texts";
+  if (std::holds_alternative<Member<Intervals>>(key.field))
+    return "a table of intervals";
   if (std::holds_alternative<Member<int>>(key.field))
     return range_text(key.range) + ", whole";
   if (std::holds_alternative<Member<std::vector<double>>>(key.field))

@@ -6,6 +6,7 @@
 #include "case/units.hpp"
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -19,7 +20,10 @@ struct Case;
 struct Unsupported {
   std::string what;
 };
-using Value = std::variant<Unsupported, bool, std::string, std::int64_t, double, std::vector<double>>;
+using Words = std::vector<std::string>;
+using Intervals = std::map<std::string, std::vector<double>>; // of keys
+using Value =
+    std::variant<Unsupported, bool, std::string, std::int64_t, double, std::vector<double>, Words, Intervals>;
 
 // Where a key's value lives in a Case.
 template <class T>
@@ -38,7 +42,8 @@ struct Measured {
   Dimension dimension;
 };
 using Field = std::variant<Member<bool>, Member<std::string>, Member<double>, Member<int>,
-                           Member<std::optional<double>>, Member<std::vector<double>>, Choice, Measured>;
+                           Member<std::optional<double>>, Member<std::vector<double>>, Member<Words>,
+                           Member<Intervals>, Choice, Measured>;
 
 // What a key is to a steady state.
 enum class SteadyRole {

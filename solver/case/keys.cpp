@@ -241,6 +241,8 @@ std::vector<Key> physical_keys() {
                  measured(CAPSULE_AT(physical.pressure), dimension::pressure)}),
       in_a_pore({"physical.pore_length", "of the tube that the pressure drives the liquid through",
                  measured(CAPSULE_AT(physical.pore_length), dimension::length)}),
+      of_motion(in_a_pore({"physical.capsule_velocity", "of the capsule, instead of Q, for `capsule fit`",
+                           measured(CAPSULE_AT(physical.capsule_velocity), dimension::velocity)})),
       in_a_pore({"physical.shear_modulus", "surface shear modulus, G",
                  measured(CAPSULE_AT(physical.shear_modulus), dimension::tension)}),
       in_a_pore({"physical.young_modulus", "instead of G: surface Young modulus at small strain, E_s",
@@ -260,6 +262,25 @@ std::vector<Key> physical_keys() {
                            "of the external liquid, rho: for the Reynolds number that `capsule show` states",
                            measured(CAPSULE_AT(physical.density), dimension::density), any_number,
                            "1000 kg/m3, of water"})),
+  };
+}
+
+std::vector<Key> fit_keys() {
+  return {
+      of_motion({"fit.unknowns", "keys that `capsule fit` is to find",
+                 member<Words>(CAPSULE_AT(fit.unknowns)), any_number,
+                 "capsule.radius, flow.capillary_number"}),
+      of_motion({"fit.laws", "laws of the membrane that are tried", member<Words>(CAPSULE_AT(fit.laws)),
+                 any_number, "membrane.law"}),
+      of_motion({"fit.noise", "standard deviation of a point from the outline, in R_t",
+                 member<std::optional<double>>(CAPSULE_AT(fit.noise)), above_up_to(0, 0.5), "estimated"}),
+      of_motion({"fit.velocity_noise", "relative standard deviation of a measured velocity",
+                 member<std::optional<double>>(CAPSULE_AT(fit.velocity_noise)), above_up_to(0, 0.5), "0.01"}),
+      of_motion({"fit.outline", "what the points lie on; in a silhouette a rim hides a concave rear",
+                 choice<OutlineSeen>(CAPSULE_AT(fit.outline), {"meridian", "silhouette"}), any_number}),
+      of_motion({"fit.bounds", "lowest and largest value of an unknown: \"capsule.radius\" = [0.8, 0.9]",
+                 member<Intervals>(CAPSULE_AT(fit.bounds)), any_number, "ranges of the keys"}),
+      of_motion({"fit.pixel", "size of a pixel", measured(CAPSULE_AT(fit.pixel), dimension::length)}),
   };
 }
 
@@ -285,7 +306,7 @@ std::vector<Key> output_keys() {
 std::vector<Key> make_keys() {
   std::vector<Key> table;
   for (const auto &section : {general_keys, pore_keys, capsule_keys, membrane_keys, flow_keys, mesh_keys,
-                              time_keys, until_keys, physical_keys, output_keys})
+                              time_keys, until_keys, physical_keys, output_keys, fit_keys})
     std::ranges::move(section(), std::back_inserter(table));
   return table;
 }
@@ -300,6 +321,10 @@ const std::vector<Key> &keys() {
 const Key *find_key(const std::string &name) {
   const auto found = std::ranges::find(keys(), name, &Key::name);
   return found == keys().end() ? nullptr : &*found;
+}
+
+bool is_of_fits(const Key &key) {
+  return key.name.starts_with("fit.") || key.name == "physical.capsule_velocity";
 }
 
 bool means_something(const Key &key, const Case &physics) {

@@ -17,6 +17,9 @@ std::string why_meaningless(const Key &key, const Case &physics);
 // Where it means something: `time.scheme = "euler" or "rk4"`; empty: everywhere.
 std::string scope_text(const Key &key);
 
+// What only `capsule fit` looks at: the table [fit], and what stands in for the flow rate.
+bool is_of_fits(const Key &key);
+
 // The value, unless it was not given, is chosen automatically, or means nothing to the case.
 std::optional<Value> value_of(const Key &key, const Case &physics);
 

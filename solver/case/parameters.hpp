@@ -7,6 +7,7 @@
 #include "law/law.hpp"
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ enum class FlowType { pore, extension };
 enum class DriveBy { flow_rate, pressure }; // what is given and constant
 enum class Numerics { standard, paper };    // the best preset we have; section 3 of the paper
 enum class Scheme { bdf, euler, rk4 };
+enum class OutlineSeen { meridian, silhouette }; // of a capsule in an image
 
 struct PoreSpec {
   PoreShape shape = PoreShape::hyperbolic;
@@ -94,6 +96,7 @@ struct UntilSpec {
 // What the dimensionless values above may follow from, physical.hpp.
 struct PhysicalSpec {
   Quantity tube_radius, viscosity, flow_rate, pressure, pore_length;
+  Quantity capsule_velocity; // instead of the flow rate, for a fit
   Quantity shear_modulus, young_modulus, bending_modulus, capsule_radius, internal_viscosity;
   Quantity shear_viscosity, dilatational_viscosity;
   Quantity density; // of water if it is not given; only for the Reynolds number
@@ -104,6 +107,15 @@ struct OutputSpec {
   std::vector<double> profiles_at_time;
   bool resistance = false;
   std::optional<double> transit_from, transit_to; // none: a radius outside of the mouths
+};
+
+// How profiles are fitted, fit/fit.hpp.
+struct FitSpec {
+  std::vector<std::string> unknowns, laws;
+  std::optional<double> noise, velocity_noise; // standard deviations: of a point, in R_t; relative
+  OutlineSeen outline = OutlineSeen::meridian;
+  Quantity pixel;
+  std::map<std::string, std::vector<double>> bounds; // of unknowns: the lowest and the largest value
 };
 
 } // namespace capsule

@@ -49,13 +49,13 @@ double rounded(double value) {
 bool has_physical(const Case &physics) {
   const auto &p = physics.physical;
   return std::ranges::any_of(std::array{p.tube_radius, p.viscosity, p.flow_rate, p.pressure, p.pore_length,
-                                        p.shear_modulus, p.young_modulus, p.bending_modulus, p.capsule_radius,
-                                        p.internal_viscosity, p.shear_viscosity, p.dilatational_viscosity,
-                                        p.density},
+                                        p.capsule_velocity, p.shear_modulus, p.young_modulus,
+                                        p.bending_modulus, p.capsule_radius, p.internal_viscosity,
+                                        p.shear_viscosity, p.dilatational_viscosity, p.density},
                              [](const Quantity &quantity) { return quantity.si > 0; });
 }
 
-std::vector<PhysicalComplaint> physical_complaints(const Case &physics) {
+std::vector<PhysicalComplaint> physical_complaints(const Case &physics, bool of_a_fit) {
   const auto &p = physics.physical;
   std::vector<PhysicalComplaint> complaints;
   const auto require = [&](const Quantity &quantity, const std::string &key) {
@@ -71,6 +71,18 @@ std::vector<PhysicalComplaint> physical_complaints(const Case &physics) {
   };
   require(p.tube_radius, "physical.tube_radius");
   require(p.viscosity, "physical.viscosity");
+  if (of_a_fit) {
+    const auto refuse = [&](const Quantity &quantity, const std::string &key) {
+      if (quantity.si > 0)
+        complaints.push_back({key + " means nothing to a fit", {key}});
+    };
+    refuse(p.pressure, "physical.pressure");
+    refuse(p.pore_length, "physical.pore_length");
+    refuse(p.shear_modulus, "physical.shear_modulus");
+    refuse(p.young_modulus, "physical.young_modulus");
+    refuse(p.bending_modulus, "physical.bending_modulus");
+    return complaints;
+  }
   require_one(p.flow_rate, "physical.flow_rate", p.pressure, "physical.pressure");
   require_one(p.shear_modulus, "physical.shear_modulus", p.young_modulus, "physical.young_modulus");
   if (p.pressure.si > 0 && p.pore_length.si == 0)
@@ -81,12 +93,14 @@ std::vector<PhysicalComplaint> physical_complaints(const Case &physics) {
   return complaints;
 }
 
-std::vector<Derived> derived_values(const Case &physics) {
+std::vector<Derived> derived_values(const Case &physics, bool of_a_fit) {
   const auto &p = physics.physical;
   const double radius = p.tube_radius.si, shear = shear_modulus(physics);
-  std::vector<Derived> values = {{"flow.capillary_number",
-                                  p.viscosity.si * flow_rate(physics) / (pi * radius * radius * shear),
-                                  p.flow_rate.si > 0 ? "physical.flow_rate" : "physical.pressure"}};
+  std::vector<Derived> values;
+  if (!of_a_fit)
+    values.push_back({"flow.capillary_number",
+                      p.viscosity.si * flow_rate(physics) / (pi * radius * radius * shear),
+                      p.flow_rate.si > 0 ? "physical.flow_rate" : "physical.pressure"});
   if (p.capsule_radius.si > 0)
     values.push_back({"capsule.radius", p.capsule_radius.si / radius, "physical.capsule_radius"});
   if (p.bending_modulus.si > 0)

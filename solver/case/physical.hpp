@@ -23,12 +23,13 @@ struct PhysicalComplaint {
   std::string message;
   std::vector<std::string> keys;
 };
-std::vector<PhysicalComplaint> physical_complaints(const Case &physics);
+// To a fit of profiles the modulus is unknown, and the flow rate may be.
+std::vector<PhysicalComplaint> physical_complaints(const Case &physics, bool of_a_fit = false);
 // What follows from the physical keys of a case; where there are complaints, only which keys have a value. With a given
 // pressure the flow rate is that of the empty pore: 8 L/R_t of Poiseuille's flow over physical.pore_length, and for
 // the mouth half of what the whole hyperboloid of eq. 1 costs (exact for the hyperboloid; the pore's own mouth is
 // within a few percent of it).
-std::vector<Derived> derived_values(const Case &physics);
+std::vector<Derived> derived_values(const Case &physics, bool of_a_fit = false);
 
 // rho Q/(pi R_t mu) of the external liquid, of a case in physical units. The model has no inertia, which holds where this is
 // small.

@@ -149,4 +149,25 @@ TextPlace place_of(std::size_t source, const toml::source_position &position) {
   return {source, std::max<std::size_t>(1, position.line), std::max<std::size_t>(1, position.column)};
 }
 
+bool read_intervals(const toml::table &table, const std::string &prefix,
+                    std::map<std::string, std::vector<double>> &intervals) {
+  for (auto &&[key, node] : table) {
+    const std::string name = prefix + std::string(key.str());
+    if (const toml::table *inner = node.as_table()) {
+      if (!read_intervals(*inner, name + ".", intervals))
+        return false;
+      continue;
+    }
+    const toml::array *array = node.as_array();
+    if (array == nullptr)
+      return false;
+    for (const toml::node &entry : *array) {
+      if (!entry.is_number())
+        return false;
+      intervals[name].push_back(entry.value<double>().value());
+    }
+  }
+  return true;
+}
+
 } // namespace capsule

@@ -2,9 +2,11 @@
 // Files of TOML as text and as tables, or what is wrong with them. Throws nothing.
 #include "case/located_text.hpp"
 #include <filesystem>
+#include <map>
 #include <string>
 #include <toml++/toml.h>
 #include <variant>
+#include <vector>
 
 namespace capsule {
 
@@ -15,6 +17,10 @@ std::variant<std::string, Complaint> read_text(const std::filesystem::path &file
 // character beyond ASCII is white space: outside of strings and comments, where it would be an error like the ASCII
 // character in its place, and behind a backslash that joins two lines of a string.
 std::variant<toml::table, LocatedError> parse_toml(std::size_t source, const std::string &text);
+
+// Lists of numbers in a table, by their names: "a.b" in quotes, or dotted. False if there is something else in it.
+bool read_intervals(const toml::table &table, const std::string &prefix,
+                    std::map<std::string, std::vector<double>> &intervals);
 
 TextPlace place_of(std::size_t source, const toml::source_position &position);
 

@@ -123,6 +123,8 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
     resolved.time.tolerance = chosen.time_tolerance;
   json["parameters"] = Json::object();
   for (const Key &key : keys()) {
+    if (is_of_fits(key))
+      continue;
     const auto value = value_of(key, resolved);
     json["parameters"][key.name] = value ? to_json(*value) : Json();
   }

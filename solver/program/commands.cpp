@@ -4,7 +4,6 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/identity.hpp"
-#include "case/keys.hpp"
 #include "case/new_case.hpp"
 #include "case/physical.hpp"
 #include "case/project.hpp"
@@ -12,6 +11,7 @@
 #include "compare/ledger.hpp"
 #include "motion/motion.hpp"
 #include "output/tables.hpp"
+#include "program/fit_profiles.hpp"
 #include "program/progress.hpp"
 #include "program/run_list.hpp"
 #include "scene/cost.hpp"
@@ -250,6 +250,13 @@ ExitCode follow_branches(const Arguments &arguments) {
   return compute_runs(input, arguments, {task, method});
 }
 
+ExitCode fit_case(const Arguments &arguments) {
+  listen_to_signals();
+  const Task task{.motion = false, .name = "fit", .fit = true};
+  const CaseInput input = read_case_of(arguments, task);
+  return fit_profiles(arguments.profiles, arguments.together, input, run_options(arguments, input, task));
+}
+
 ExitCode check_case(const Arguments &arguments) {
   const CaseInput input = read_case_of(arguments);
   const auto published = find_expectations(input.file);
@@ -340,25 +347,6 @@ ExitCode show_case(const Arguments &arguments) {
   }
   fmt::print("# {}, {} finished, about {} of one core to go\n", counted(input.runs.size(), "run"), finished,
              duration_text(seconds_left));
-  return ExitCode::done;
-}
-
-ExitCode list_keys() {
-  std::string section;
-  for (const Key &key : keys()) {
-    const std::string here = key.name.substr(0, key.name.find('.'));
-    fmt::print("{}{:<33}{}\n{:<33}default: {}; allowed: {}\n", here == section ? "" : "\n", key.name,
-               key.meaning, "", default_text(key), allowed_text(key));
-    if (!key.scope.key.empty())
-      fmt::print("{:<33}only with {}\n", "", scope_text(key));
-    for (const std::string &note : key.notes)
-      fmt::print("{:<33}{}\n", "", note);
-    section = here;
-  }
-  fmt::print("\n{:<26}values of another case file, relative to this one, that this one overrides;\n"
-             "{:<26}of several, [\"a\", \"b\"]: the runs of each\n"
-             "sweep.\"any.key\" = [...]   one run per value; several sweeps make every combination\n",
-             "inherit", "");
   return ExitCode::done;
 }
 

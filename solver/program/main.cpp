@@ -3,6 +3,7 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "program/commands.hpp"
+#include "program/list_keys.hpp"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -106,6 +107,16 @@ ExitCode run_command(int argc, char **argv) {
       ->check(any_real_number())
       ->required();
   branch_app.callback([&] { code = follow_branches(arguments); });
+  CLI::App &fit_app = *app.add_subcommand(
+      "fit", "the unknowns of a case's table [fit] from measured outlines of the capsule: fit.json");
+  add_computing(fit_app, arguments);
+  fit_app
+      .add_option("--profile", arguments.profiles,
+                  "an outline as CSV, `x [um],r [um]`, or a directory of them; may be repeated")
+      ->required();
+  fit_app.add_flag("--together", arguments.together,
+                   "all of them are one capsule, at several flow rates: one fit");
+  fit_app.callback([&] { code = fit_case(arguments); });
   CLI::App &check_app =
       *app.add_subcommand("check", "compute what is missing and compare with expected values");
   add_computing(check_app, arguments);

@@ -1,0 +1,16 @@
+#pragma once
+// How far one parameter may go from a minimum before the sum of squares, minimised over all others, has grown by so much.
+#include "fit/least_squares.hpp"
+
+namespace capsule {
+
+struct Reach {
+  double value = 0;
+  bool open = false; // a bound, or the last value at which there was a sum at all
+  bool at_bound = false;
+};
+// `sense`: 1 upwards, -1 downwards. To within a hundredth of the way.
+Reach reach(const LeastSquares &problem, const Minimum &minimum, const Matrix &covariance,
+            Eigen::Index parameter, int sense, double growth);
+
+} // namespace capsule
