@@ -1,0 +1,46 @@
+epsilon(i) = parameter(run(i), "flow.capillary_number")
+ratio(i) = parameter(run(i), "capsule.aspect_ratio")
+name(i) = sprintf("%s, {/:Italic ε} = %g", ratio(i) == 1 ? "sphere" : "ellipsoid", epsilon(i))
+empty = result(run(1), "empty_resistance")
+# When the centre is at the mouth: pulses are drawn from there on.
+start(i) = number(system("awk -F, 'NR > 1 && $2 > -1e-6 {printf \"%.16e\", $1; exit}' ".quoted(series(run(i)))))
+array mouth[count]
+do for [i=1:count] { mouth[i] = start(i) }
+spheres = ""; ellipsoids = ""
+do for [i=1:count] { if (ratio(i) == 1) { spheres = spheres." ".i } else { ellipsoids = ellipsoids." ".i } }
+second_mouth = parameter(run(1), "pore.exit_x")
+wall_2x(t) = second_mouth - wall_x(second_mouth - t)
+both_walls = "sample [t=-3:second_mouth + 3] '+' using (t < second_mouth ? wall_x(t) : wall_2x(t)):(t < second_mouth ? wall_r(t) : wall_r(second_mouth - t)):(10) \
+  with filledcurves linecolor rgb wall_colour, \
+  [t=-3:second_mouth + 3] '+' using (t < second_mouth ? wall_x(t) : wall_2x(t)):(t < second_mouth ? -wall_r(t) : -wall_r(second_mouth - t)):(-10) \
+  with filledcurves linecolor rgb wall_colour"
+
+stiff = run(int(word(spheres, 1)))
+stats series(stiff) using "resistance_long_conductor" name "long" nooutput
+
+eval figure("shapes", 17, 5)
+shown = run(int(word(spheres, words(spheres))))
+eval view(-3.6, 9.6, -2, 2)
+set xtics 1; set ytics 1
+plot @both_walls, for [p in "-2 0 2 4 6 8"] for [side=-1:1:2] \
+    profiles(shown) using (at_x_g(p, "x")):(side * column("r")) with @capsule_fill, \
+  for [p in "-2 0 2 4 6 8"] for [side=-1:1:2] \
+    profiles(shown) using (at_x_g(p, "x")):(side * column("r")) with lines linetype 1
+print sprintf("**Shapes.** The sphere at ε = %g on its way through both mouths.", parameter(shown, "flow.capillary_number"))
+
+eval figure("pulse", 17, 11)
+set multiplot layout 2, 1 margins 0.08, 0.98, 0.11, 0.98 spacing 0, 0.06
+set xrange [-6:9]; set yrange [0:*]
+set ylabel "Δ{/:Italic R} / ({/:Italic ρ}/π{/:Italic R}_t)"
+set key left top
+plot for [i in spheres." ".ellipsoids] series(run(i + 0)) using (column("time") - mouth[i + 0]):"resistance" with lines linetype i + 0 \
+    title name(i), \
+  for [i in word(spheres, 1)] series(run(i + 0)) using (column("time") - mouth[i + 0]):"resistance_long_conductor" with lines linetype 1 linewidth 0.7 dashtype 3 \
+    title sprintf("%s, long conductor", name(i))
+set xlabel "time since {/:Italic x}_g = 0 / (π{/:Italic R}_t^3/{/:Italic Q}_0)"; set ylabel "{/:Italic Q} / {/:Italic Q}_0"
+set yrange [*:1.01]; unset key
+plot for [i=1:count] series(run(i)) using (column("time") - mouth[i]):"flow_rate" with lines linetype i
+unset multiplot
+print sprintf("**Pulses.** What capsules add to the resistance of a pore of length %g, and the flow rate at constant pressure.", second_mouth), \
+  sprintf("The stiffest sphere adds at most %.1f %% of the empty pore's resistance;", 100 * entry(results(stiff), "    \"pulse_height\"") / empty), \
+  sprintf("the long conductor says %.1f %%, and it hardly has a foot.", 100 * long_max / empty)
