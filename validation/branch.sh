@@ -46,6 +46,7 @@ grep -q "unbounded  $key 0\.[0-9]*  v_g" log || fail 'the line of a branch does 
 sed -n '/"folds"/,/\]/p' folded/summary.json >folds
 [ "$(grep -c "\"$key\"" folds)" -eq 1 ] || fail 'not one fold'
 fold=$(of folded $key)
+near "$(sed -n 's/.*  fold at \([0-9.]*\).*/\1/p' log)" "$fold" 1e-6 'the line of a branch tells another fold'
 sed -n 's/.*timestep="\([^"]*\)".*/\1/p' folded/membrane.pvd >times
 sort -nu times | cmp - times && grep -q "Name=\"$key\"" folded/membrane_0001.vtp ||
   fail 'a reader that sorts by time shows another branch'
@@ -55,6 +56,28 @@ ends 3 steady case.toml --out beyond --set $key="$(awk -v f="$fold" 'BEGIN { pri
 said=$(sed -n "s/.*fold at $key = \([0-9.]*\);.*/\1/p" log)
 near "$said" "$fold" "$(awk -v f="$fold" 'BEGIN { print 1e-4 * f }')" 'the fold'
 ends 0 steady case.toml --out below --set $key="$(awk -v f="$fold" 'BEGIN { print 0.998 * f }')"
+
+# The same branch in physical units: eps = 0.1 at 10 nl/s.
+cat >physical.toml <<'TOML'
+accuracy = 1e-3
+[physical]
+tube_radius = "50 um"
+capsule_radius = "40 um"
+viscosity = "1 Pa.s"
+flow_rate = "10 nl/s"
+shear_modulus = "12.732395447 mN/m"
+[membrane]
+law = "neo-hookean"
+bending_ratio = 0.01
+TOML
+ends 0 branch physical.toml --along physical.flow_rate --to '30 nl/s' --out physical
+near "$(of physical $key)" "$fold" 1e-6 'the fold in physical units'
+near "$(sed -n 's/.*fold at a flow rate of \(.*\) m3\/s.*/\1/p' log | awk '{ print 1e10 * $1 }')" "$fold" 1e-4 'its flow rate'
+ends 2 branch physical.toml --along physical.flow_rate --to 30 --out physical && grep -q "'30' has no unit" log ||
+  fail 'a flow rate without a unit'
+ends 2 branch case.toml --along physical.flow_rate --to '30 nl/s' --out physical && grep -q 'no physical units' log ||
+  fail 'a flow rate of a case without units'
+ends 2 branch case.toml --along $key --to 0,3 --out physical && grep -q '0.3' log || fail 'a comma in --to'
 
 # From a march through the whole pore, and from what is no profile. Of a loose accuracy, which velocities at the end keep
 # in any build: those of a march to 1e-3 may be off by 1.5e-3 for the length of a few steps.

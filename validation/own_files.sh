@@ -73,6 +73,12 @@ grep -q 'computed before' log && fail 'another profile is taken for the same'
 echo 'id,run,quantity,expected,allowed,reason' >first/expected.csv
 ends 2 check first --table first/expected
 grep -q "'first/expected.csv' holds what is expected" log && [ -s first/expected.csv ] || fail 'a table takes the place of another'
+for end in csv md; do
+  echo mine >mine.$end
+  ends 2 check first --table mine
+  grep -q "'mine.$end' is no such table" log && [ "$(cat mine.$end)" = mine ] || fail "a table takes the place of the user's .$end"
+  rm mine.*
+done
 mkdir elsewhere
 cp -r first elsewhere/runs
 ends 2 run elsewhere/runs

@@ -8,6 +8,9 @@
 
 namespace capsule {
 
+// The key that grows with the flow.
+inline constexpr const char *flow_key = "flow.capillary_number";
+
 const std::vector<Key> &keys();
 const Key *find_key(const std::string &name);
 

@@ -225,20 +225,22 @@ char lower(char c) {
 }
 
 // Whether a suggested text may stand for a typed one: a word's first letter may be its prefix, and a suggestion must not
-// change the magnitude. Capitals are mixed up, and y is typed for the Greek letter.
+// change the magnitude. Capitals are mixed up, and y, mu and mc are typed for the Greek letter.
 bool same_first_letters(std::string_view typed, std::string_view suggested) {
-  const auto first_letters = [](std::string_view text) {
+  const auto first_letters = [](std::string_view text, bool typed_by_hand) {
     std::string letters;
     bool inside = false;
-    for (const char c : text) {
-      const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+      const bool letter = std::isalpha(static_cast<unsigned char>(text[k])) != 0;
+      const char first = lower(text[k]), second = k + 1 < text.size() ? lower(text[k + 1]) : ' ';
       if (letter && !inside)
-        letters += lower(c) == 'y' ? 'u' : lower(c);
+        letters +=
+            first == 'y' || (typed_by_hand && first == 'm' && (second == 'u' || second == 'c')) ? 'u' : first;
       inside = letter;
     }
     return letters;
   };
-  const std::string of_typed = first_letters(typed), of_suggested = first_letters(suggested);
+  const std::string of_typed = first_letters(typed, true), of_suggested = first_letters(suggested, false);
   // "mPas" lacks the dot of "mPa.s".
   return of_suggested.starts_with(of_typed);
 }

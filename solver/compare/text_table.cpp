@@ -1,5 +1,7 @@
 #include "compare/text_table.hpp"
+#include "base/atomic_file.hpp"
 #include "base/csv.hpp"
+#include "base/failure.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,6 +45,15 @@ std::string markdown_table(const std::vector<TextRow> &rows) {
         text += k + 1 < row.size() ? "| --- " : "| --- |\n";
   }
   return text;
+}
+
+void write_table(const std::filesystem::path &file, const std::string &text) {
+  const auto first_line = [](const std::string &of) { return of.substr(0, of.find('\n')); };
+  if (std::error_code ignored;
+      std::filesystem::exists(file, ignored) && first_line(read_file(file)) != first_line(text))
+    throw InputError(fmt::format(
+        "error: '{}' is no such table; give --table another name, or move the file away\n", file.string()));
+  write_atomically(file, text);
 }
 
 } // namespace capsule

@@ -145,8 +145,11 @@ Summary read_summary(const std::filesystem::path &directory) {
     summary.status = text("status");
     summary.failure = text("failure");
     summary.message = text("message");
-    if (json->contains("along"))
+    if (json->contains("along")) {
       summary.along = text("along");
+      for (const Json &fold : json->at("folds"))
+        summary.folds.push_back(fold.at(summary.along));
+    }
     for (const auto &[name, value] : json->items())
       if (value.is_number())
         summary.quantities[name] = value;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace capsule {
 
@@ -19,7 +20,8 @@ struct Summary {
   std::string message;
   std::map<std::string, double> quantities;
   std::map<std::string, double> error_estimate;
-  std::string along = {}; // of a branch: the key that varies
+  std::string along = {};         // of a branch: the key that varies
+  std::vector<double> folds = {}; // its values there
 };
 // Throws FileError.
 Summary read_summary(const std::filesystem::path &directory);

@@ -4,6 +4,7 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/identity.hpp"
+#include "case/keys.hpp"
 #include "case/physical.hpp"
 #include "observe/quantities.hpp"
 #include "output/checkpoint.hpp"
@@ -83,10 +84,16 @@ std::vector<std::pair<std::string, std::string>> told_quantities(const Summary &
 // The same in SI units, on a line of its own, where the case has them.
 std::string report_in_si(const RunResult &result) {
   const Summary &summary = *result.summary;
-  if (!has_physical(result.input.physics) || !summary.along.empty())
+  if (!has_physical(result.input.physics))
     return "";
   const Scales scales = physical_scales(result.input.physics);
   std::string text = "\n  in SI units:";
+  if (!summary.along.empty()) { // along most keys the scales change
+    const double unit = scales.flow_rate / result.input.physics.flow.capillary_number;
+    for (const double fold : summary.folds)
+      text += fmt::format("  fold at a flow rate of {:.4g} {}", fold * unit, unit_text(dimension::flow_rate));
+    return summary.along == flow_key && !summary.folds.empty() ? text : "";
+  }
   for (const auto &[label, name] : told_quantities(summary)) {
     const auto value = summary.quantities.find(name);
     const auto quantity = std::ranges::find(reported_quantities(), name, &ReportedQuantity::name);
@@ -108,6 +115,8 @@ std::string report(const RunResult &result, const std::string &name, RunEnd end)
   };
   for (const auto &[label, quantity] : told_quantities(summary))
     add(label, quantity);
+  for (const double fold : summary.folds)
+    text += fmt::format("  fold at {:.6g}", fold);
   add("CPU seconds", "cpu_seconds", 3);
   return text +
          fmt::format("{}  -> {}", end == found ? " (computed before)" : "", result.directory.string()) +

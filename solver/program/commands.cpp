@@ -9,6 +9,7 @@
 #include "case/project.hpp"
 #include "compare/comparison.hpp"
 #include "compare/ledger.hpp"
+#include "compare/text_table.hpp"
 #include "motion/motion.hpp"
 #include "output/tables.hpp"
 #include "program/fit_profiles.hpp"
@@ -121,8 +122,7 @@ std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arg
     if (has_failed(result))
       fmt::print(stderr, "{}: {}: {}\n", result.directory.string(), result.summary->failure,
                  result.summary->message);
-  const auto unfinished = std::ranges::count_if(results, is_interrupted);
-  if (unfinished > 0)
+  if (const auto unfinished = std::ranges::count_if(results, is_interrupted); unfinished > 0)
     fmt::print(stderr, "interrupted: {} of {} to finish; the same command {}\n", unfinished,
                counted(results.size(), "run"),
                options.task.motion ? "goes on from the last checkpoint" : "begins with them again");
@@ -211,10 +211,10 @@ void show_comparisons(const std::vector<Comparison> &comparisons, const std::str
   const std::vector<TextRow> rows = comparison_rows(comparisons);
   if (!comparisons.empty())
     fmt::print("\n{}\n", text_table(rows));
-  if (files.empty())
-    return;
-  write_atomically(files + ".csv", csv_table(rows));
-  write_atomically(files + ".md", markdown_table(rows));
+  if (!files.empty()) {
+    write_table(files + ".csv", csv_table(rows));
+    write_table(files + ".md", markdown_table(rows));
+  }
 }
 
 } // namespace
@@ -238,14 +238,14 @@ ExitCode find_steady_states(const Arguments &arguments) {
 
 ExitCode follow_branches(const Arguments &arguments) {
   const Task task{.motion = false,
-                  .name =
-                      fmt::format("branch --along {} --to {}", arguments.along, number_text(arguments.to))};
+                  .name = fmt::format("branch --along {} --to {}", arguments.along, arguments.to)};
   const CaseInput input = read_case_of(arguments, task);
-  for (const RunInput &run : input.runs)
-    require_branch(run.physics, arguments.along, arguments.to);
+  const auto end = [&](const Case &physics) { return end_of_branch(physics, arguments.along, arguments.to); };
+  for (const auto &[name, physics] : input.runs)
+    require_branch(physics, end(physics).key, end(physics).value);
   const Method method = [&](const Case &physics, const Checkpoint & /*none is saved*/,
                             const Control &control) {
-    return follow_branch(physics, arguments.along, arguments.to, control);
+    return follow_branch(physics, end(physics).key, end(physics).value, control);
   };
   return compute_runs(input, arguments, {task, method});
 }
@@ -321,8 +321,8 @@ ExitCode write_ledger(const Arguments &arguments) {
       comparisons.insert(comparisons.end(), more.begin(), more.end());
     }
   const Ledger ledger = make_ledger(comparisons);
-  write_atomically(arguments.table + ".csv", ledger.csv);
-  write_atomically(arguments.table + ".md", ledger.markdown);
+  write_table(arguments.table + ".csv", ledger.csv);
+  write_table(arguments.table + ".md", ledger.markdown);
   fmt::print("{}: {}; {} not as recorded\n", arguments.table, ledger.summary,
              counted(static_cast<std::size_t>(ledger.not_as_recorded), "row"));
   return ledger.not_as_recorded == 0 ? ExitCode::done : ExitCode::differs;

@@ -21,7 +21,7 @@ struct Arguments {
   std::size_t only = 0;              // one run of a sweep, counted from 1; 0: all
   std::string from;                  // directory of a run whose last profile is near to the steady state
   std::string along;                 // the key that varies on a branch
-  double to = 0;                     // and where it goes
+  std::string to;                    // and where it goes
   std::vector<std::string> profiles; // contours to fit: files, or directories of them
   bool together = false;             // all of one capsule
 };

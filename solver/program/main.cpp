@@ -24,10 +24,6 @@ CLI::Validator above_zero() {
           "> 0"};
 }
 
-CLI::Validator any_real_number() {
-  return {[](const std::string &text) { return to_number(text) ? "" : not_a_number(text); }, ""};
-}
-
 void add_case(CLI::App &command, Arguments &arguments) {
   command.add_option("CASE", arguments.path, "a case directory or a .toml file")->required();
   command
@@ -103,8 +99,9 @@ ExitCode run_command(int argc, char **argv) {
   add_computing(branch_app, arguments);
   add_selection(branch_app, arguments);
   branch_app.add_option("--along", arguments.along, "the key that varies, from the case's value")->required();
-  branch_app.add_option("--to", arguments.to, "the value of the key where the branch ends")
-      ->check(any_real_number())
+  branch_app
+      .add_option("--to", arguments.to,
+                  "the value of the key where the branch ends; of physical.flow_rate with its unit")
       ->required();
   branch_app.callback([&] { code = follow_branches(arguments); });
   CLI::App &fit_app = *app.add_subcommand(

@@ -3,6 +3,8 @@
 #include "base/text.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
+#include "case/physical.hpp"
+#include "case/units.hpp"
 #include "steady/continuation.hpp"
 #include "steady/refinement.hpp"
 #include "steady/steady_state.hpp"
@@ -12,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace capsule {
@@ -176,6 +179,23 @@ void require_branch(const Case &input, const std::string &key, double to) {
     throw InputError("error: no branch along 'capsule.radius': it is the unit of length in an extension\n");
   if (!KeyPath(key, input, to).needed())
     throw InputError(fmt::format("error: {} = {} is where the branch begins\n", key, number_text(to)));
+}
+
+BranchEnd end_of_branch(const Case &input, const std::string &along, const std::string &to) {
+  const std::string flow_rate = "physical.flow_rate";
+  if (along != flow_rate) {
+    if (const auto value = to_number(to))
+      return {along, *value};
+    throw InputError(fmt::format("error: --to {}\n", not_a_number(to)));
+  }
+  if (!has_physical(input))
+    throw InputError(fmt::format("error: no branch along '{}': the case has no physical units\n", flow_rate));
+  const auto read = read_quantity(to, dimension::flow_rate);
+  if (const auto *none = std::get_if<NoQuantity>(&read))
+    throw InputError(
+        fmt::format("error: --to {}\nallowed: {}\n", none->why, examples_text(dimension::flow_rate)));
+  return {flow_key,
+          input.flow.capillary_number * std::get<Quantity>(read).si / physical_scales(input).flow_rate};
 }
 
 Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control) {

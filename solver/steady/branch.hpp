@@ -17,4 +17,12 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
 // where the branch begins.
 void require_branch(const Case &input, const std::string &key, double to);
 
+// What is typed as --along and --to, for a case: a key and its value there. A flow rate with its unit ("20 ul/min") along
+// physical.flow_rate is a capillary number. Throws InputError if it is no number, or no flow rate.
+struct BranchEnd {
+  std::string key;
+  double value = 0;
+};
+BranchEnd end_of_branch(const Case &input, const std::string &along, const std::string &to);
+
 } // namespace capsule

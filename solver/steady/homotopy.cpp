@@ -1,6 +1,7 @@
 #include "steady/homotopy.hpp"
 #include "base/failure.hpp"
 #include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include "steady/continuation.hpp"
 #include "steady/newton.hpp"
 #include "steady/relaxation.hpp"
@@ -23,8 +24,6 @@ constexpr int most_to_relax_on = 70; // nodes
 // On the finest mesh a stretch above this that has grown since the fold counts as running away, too.
 constexpr double large_stretch = 2;
 constexpr double growth_behind_fold = 1.03;
-
-constexpr const char *flow_key = "flow.capillary_number";
 
 // The state on the way from a state that is easily found to that of a case.
 class Homotopy {

@@ -102,6 +102,9 @@ BOOST_AUTO_TEST_CASE(a_suggestion_keeps_the_magnitude) {
   BOOST_TEST(refused("5 TPa", dimension::pressure).meant.empty());
   BOOST_TEST(refused("5 El/s", dimension::flow_rate).meant.empty());
   BOOST_TEST(refused("5 kt", dimension::energy).meant == "5 kT");
+  BOOST_TEST(refused("4 mum", dimension::length).meant == "4 um");
+  BOOST_TEST(refused("6 mcl/min", dimension::flow_rate).meant == "6 ul/min");
+  BOOST_TEST(refused("20 muN/m", dimension::tension).meant == "20 uN/m");
 }
 
 // "min" is no milli-inch, "mN" no metre-newton, "Pa" no peta-are.
