@@ -73,7 +73,7 @@ echo "$good
 until.x_g = 14.5" | bad '4:13: error: at until.x_g = 14.5 the capsule would cross the exit section'
 two_mouths='pore.shape = "two-mouths"'
 printf '%s\n%s\ncapsule.start_x = 16\n' "$good" "$two_mouths" |
-  bad '5:19: error: the capsule starts behind the pore, at x = 16'
+  bad '5:28: error: the capsule starts behind the pore, at x = 16'
 printf '%s\n%s\nuntil.x_g = 24.5\n' "$good" "$two_mouths" |
   bad '5:13: error: at until.x_g = 24.5 the capsule would cross the end of its way'
 printf '%s\n%s\noutput.transit_to = 20\n' "$good" "$two_mouths" |
@@ -121,8 +121,8 @@ capsule_radius = "4 µm"
 law = "neo-hookean"'
 echo "$physical" | sed 's/5 um/5 umm/' | bad "2:15: error: physical.tube_radius: unknown unit 'umm' in '5 umm'"
 echo "$physical" | sed 's/nL.s/nL/' | bad "4:13: error: physical.flow_rate: '0.1 nL' is a quantity in m3, not a flow rate"
-printf '%s\nshear_viscosity = 200\n' "$physical" | sed '/^flow_rate/a shear_viscosity = "200 mPa.s"' |
-  bad "5:19: error: physical.shear_viscosity: '200 mPa.s' is a viscosity, not a surface viscosity"
+printf '%s\nshear_viscosity = 200\n' "$physical" | sed '/^flow_rate/a membrane_shear_viscosity = "200 mPa.s"' |
+  bad "5:28: error: physical.membrane_shear_viscosity: '200 mPa.s' is a viscosity, not a surface viscosity"
 echo "$physical" | sed '/viscosity/d' | bad "2:15: error: missing key 'physical.viscosity'"
 echo "$physical" | sed 's/tube_radius/tube_radus/' | bad "2:1: error: unknown key 'physical.tube_radus'"
 rm -r bad

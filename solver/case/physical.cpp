@@ -111,11 +111,11 @@ std::vector<Derived> derived_values(const Case &physics, bool of_a_fit) {
         {"flow.viscosity_ratio", p.internal_viscosity.si / p.viscosity.si, "physical.internal_viscosity"});
   if (p.shear_viscosity.si > 0)
     values.push_back({"membrane.shear_viscosity", p.shear_viscosity.si / (p.viscosity.si * radius),
-                      "physical.shear_viscosity"});
+                      "physical.membrane_shear_viscosity"});
   if (p.dilatational_viscosity.si > 0)
     values.push_back({"membrane.dilatational_viscosity",
                       p.dilatational_viscosity.si / (p.viscosity.si * radius),
-                      "physical.dilatational_viscosity"});
+                      "physical.membrane_dilatational_viscosity"});
   for (Derived &derived : values)
     derived.value = rounded(derived.value);
   return values;

@@ -100,7 +100,8 @@ BOOST_AUTO_TEST_CASE(interrupted_anywhere_and_resumed_is_as_if_never_interrupted
   RunOptions straight{.directory = directory.path / "straight"};
   BOOST_REQUIRE(compute(case_with({1}), straight, chaotic_march).at(0).summary);
   const auto expected = numbers_in(straight.directory);
-  BOOST_TEST(expected.size() == 4u + 1 + 2); // summary, series, profiles, input; collection and surfaces
+  BOOST_TEST(expected.size() ==
+             4u + 1 + 2 + 1); // summary, series, profiles, input; collection, surfaces, wall
   for (const int patience : {2, 63}) {
     RunOptions stopped{.directory = directory.path / std::to_string(patience),
                        .seconds_between_checkpoints = 0};

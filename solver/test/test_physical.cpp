@@ -73,9 +73,9 @@ BOOST_AUTO_TEST_CASE(dimensionless_groups_follow) {
 
 // mu_s/(mu R_t) and kappa_s/(mu R_t): a red cell's membrane in a pore of 5 um.
 BOOST_AUTO_TEST_CASE(surface_viscosities_follow) {
-  const Case physics =
-      only_run(replaced(laboratory, "5 um", "2.5 um"),
-               {"physical.shear_viscosity=0.5 uN.s/m", "physical.dilatational_viscosity=1 pN.s/um"});
+  const Case physics = only_run(
+      replaced(laboratory, "5 um", "2.5 um"),
+      {"physical.membrane_shear_viscosity=0.5 uN.s/m", "physical.membrane_dilatational_viscosity=1 pN.s/um"});
   BOOST_TEST(physics.membrane.viscosity.shear == 200, tolerance);
   BOOST_TEST(physics.membrane.viscosity.dilatational == 400, tolerance);
 }
