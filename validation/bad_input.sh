@@ -73,7 +73,7 @@ echo "$good
 until.x_g = 14.5" | bad '4:13: error: at until.x_g = 14.5 the capsule would cross the exit section'
 two_mouths='pore.shape = "two-mouths"'
 printf '%s\n%s\ncapsule.start_x = 16\n' "$good" "$two_mouths" |
-  bad '5:28: error: the capsule starts behind the pore, at x = 16'
+  bad '5:19: error: the capsule starts behind the pore, at x = 16'
 printf '%s\n%s\nuntil.x_g = 24.5\n' "$good" "$two_mouths" |
   bad '5:13: error: at until.x_g = 24.5 the capsule would cross the end of its way'
 printf '%s\n%s\noutput.transit_to = 20\n' "$good" "$two_mouths" |

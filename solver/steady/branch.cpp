@@ -186,7 +186,7 @@ BranchEnd end_of_branch(const Case &input, const std::string &along, const std::
   if (along != flow_rate) {
     if (const auto value = to_number(to))
       return {along, *value};
-    throw InputError(fmt::format("error: --to {}\n", not_a_number(to)));
+    throw InputError(fmt::format("error: --to: {}\n", not_a_number(to)));
   }
   if (!has_physical(input))
     throw InputError(fmt::format("error: no branch along '{}': the case has no physical units\n", flow_rate));
