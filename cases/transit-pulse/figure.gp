@@ -29,7 +29,7 @@ plot @both_walls, for [p in "-2 0 2 4 6 8"] for [side=-1:1:2] \
 print sprintf("**Shapes.** The sphere at ε = %g on its way through both mouths.", parameter(shown, "flow.capillary_number"))
 
 eval figure("pulse", 17, 11)
-set multiplot layout 2, 1 margins 0.08, 0.98, 0.11, 0.98 spacing 0, 0.06
+set multiplot layout 2, 1 margins 0.1, 0.98, 0.11, 0.98 spacing 0, 0.06
 set xrange [-6:9]; set yrange [0:*]
 set ylabel "Δ{/:Italic R} / ({/:Italic ρ}/π{/:Italic R}_t)"
 set key left top
