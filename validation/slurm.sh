@@ -74,6 +74,6 @@ if sinfo --noheader >sinfo.log 2>&1; then
   [ $code -eq 3 ] || fail "the array ended with $code, not with 3, as a failed run does"
   [ "$("$capsule" run "many (it's).toml" --list | grep -c 'reached$')" -eq 2 ] || fail 'not both good runs are computed'
 else
-  echo 'skipped: the array on a cluster needs the package slurm-wlm'
+  echo 'skipped: the array on a cluster needs one, which answers sinfo'
 fi
 echo '1200 runs are submitted once each, those that are missing again'
