@@ -1,5 +1,6 @@
 #pragma once
 // Reads JSON files. Only for the sources that write such files, because the library's header takes a second to compile.
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -7,6 +8,11 @@
 namespace capsule {
 
 using Json = nlohmann::ordered_json;
+
+// JSON has no infinity and no number that is none.
+inline Json finite_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
 
 // The file's content, or nothing if there is no such file. Throws FileError.
 std::optional<Json> read_json(const std::filesystem::path &file);

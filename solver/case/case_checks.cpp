@@ -199,15 +199,13 @@ struct Checks {
     const FitSpec &fit = physics.fit;
     if (physics.flow.type != FlowType::pore)
       chosen.complain({"flow.type"}, "a fit is of a capsule in a tube");
-    std::vector<std::string> names, parameters;
+    const std::vector<std::string> parameters = parameters_of_steady_states();
+    std::vector<std::string> names;
     for (const Law *law : laws())
       names.emplace_back(law->name);
     for (const std::string &law : fit.laws)
       if (std::ranges::find(names, law) == names.end())
         chosen.complain({"fit.laws"}, fmt::format("unknown law '{}'", law), meant(law, names));
-    for (const Key &key : keys())
-      if (key.steady == SteadyRole::parameter)
-        parameters.push_back(key.name);
     for (const std::string &unknown : fit.unknowns) {
       if (std::ranges::find(parameters, unknown) == parameters.end())
         chosen.complain({"fit.unknowns"}, fmt::format("'{}' is nothing that a fit can find", unknown),

@@ -172,8 +172,7 @@ std::vector<Key> flow_keys() {
        choice<FlowType>(CAPSULE_AT(flow.type), {"pore", "extension"}), any_number},
       in_a_pore({"flow.drive",
                  "what is constant: the flow rate, or the pressure drop from the reservoir to pore.exit_x, "
-                 "or to the "
-                 "reservoir behind a second mouth",
+                 "or to the reservoir behind a second mouth",
                  choice<DriveBy>(CAPSULE_AT(flow.drive), {"flow-rate", "pressure"}), any_number}),
       parameter({"flow.capillary_number",
                  "epsilon = mu Q/(pi R_t^2 G), Q without a capsule; extension: mu e a/G",
@@ -321,6 +320,14 @@ const std::vector<Key> &keys() {
 const Key *find_key(const std::string &name) {
   const auto found = std::ranges::find(keys(), name, &Key::name);
   return found == keys().end() ? nullptr : &*found;
+}
+
+std::vector<std::string> parameters_of_steady_states() {
+  std::vector<std::string> names;
+  for (const Key &key : keys())
+    if (key.steady == SteadyRole::parameter)
+      names.push_back(key.name);
+  return names;
 }
 
 bool is_of_fits(const Key &key) {

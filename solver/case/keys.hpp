@@ -26,6 +26,9 @@ bool is_of_fits(const Key &key);
 // The value, unless it was not given, is chosen automatically, or means nothing to the case.
 std::optional<Value> value_of(const Key &key, const Case &physics);
 
+// The keys along which branches go, and which a fit may find.
+std::vector<std::string> parameters_of_steady_states();
+
 // From now on all quantities stand in SI units, the same ones for "5 um" and "5e-3 mm".
 void forget_spellings(Case &physics);
 

@@ -209,15 +209,7 @@ Vector Conductor::flux_of_dipoles(const Curve &dipoles) const {
 
 // The flux of sources of strength 1 on a curve, over 2 pi: the solid angle of the circle over 4 pi.
 double Conductor::flux_of_sources(const Curve &sources) const {
-  const Panels across = make_panels(Vector::LinSpaced(2, 0, circle_->radius), sources.panel_points);
-  Curve disc;
-  disc.panel_points = sources.panel_points;
-  disc.weights = across.weights;
-  disc.x = Vector::Constant(across.points.size(), circle_->x);
-  disc.r = circle_->radius - across.points.array();
-  disc.x_zeta = Vector::Zero(across.points.size());
-  disc.r_zeta = Vector::Constant(across.points.size(), -1);
-  complete(disc);
+  const Curve disc = disc_at(circle_->x, circle_->radius);
   return -sources.area.dot(layer(ring_dipole, {sources.x, sources.r}, disc));
 }
 

@@ -109,7 +109,10 @@ struct Reader {
     for (std::size_t k = 0; k < rows[0].fields.size(); ++k) {
       const auto [name, its_unit] = parted(rows[0].fields[k]);
       columns[name] = k;
-      (name == "x" ? x_unit : name == "r" ? r_unit : x_unit) = name == "x" || name == "r" ? its_unit : x_unit;
+      if (name == "x")
+        x_unit = its_unit;
+      else if (name == "r")
+        r_unit = its_unit;
     }
     if (!columns.contains("x") || !columns.contains("r"))
       refuse(rows[0].line, fmt::format("there is no column '{}'", columns.contains("x") ? "r" : "x"),

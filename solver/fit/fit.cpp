@@ -13,7 +13,6 @@
 namespace capsule {
 namespace {
 
-constexpr const char *flow_key = "flow.capillary_number";
 constexpr const char *radius_key = "capsule.radius";
 constexpr const char *inflation_key = "capsule.inflation";
 constexpr double some_inflation = 0.03;

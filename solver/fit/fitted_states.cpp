@@ -2,6 +2,7 @@
 #include "base/failure.hpp"
 #include "case/case.hpp"
 #include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include "case/physical.hpp"
 #include "geometry/node_density.hpp"
 #include "steady/newton.hpp"
@@ -14,7 +15,6 @@
 namespace capsule {
 namespace {
 
-constexpr const char *flow_key = "flow.capillary_number";
 // A state that is further from where it was expected is another one.
 constexpr double farthest = 0.2;
 

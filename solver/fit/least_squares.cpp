@@ -69,12 +69,10 @@ Minimum minimise(const LeastSquares &problem, const Vector &start) {
     const Vector next = (best.parameters + step).cwiseMax(problem.low).cwiseMin(problem.high);
     step = next - best.parameters;
     const double expected = -2 * gradient.dot(step) - step.dot(matrix * step);
-    if (expected < problem.tolerance && best.failure.empty()) {
-      best.converged = true;
+    if (expected < problem.tolerance) {
+      best.converged = best.failure.empty();
       return best;
     }
-    if (expected < problem.tolerance)
-      return best;
     std::optional<Residuals> there;
     try {
       there = problem.evaluate(next);

@@ -9,16 +9,8 @@ constexpr int panel_points = 12;
 
 // Eqs. 14 and 15.
 Outlet plane_outlet(double x) {
-  const Panels across = make_panels(Vector::LinSpaced(2, 0, 1), panel_points);
   Outlet outlet;
-  Curve &curve = outlet.curve;
-  curve.panel_points = panel_points;
-  curve.weights = across.weights;
-  curve.x = Vector::Constant(panel_points, x);
-  curve.r = 1 - across.points.array();
-  curve.x_zeta = Vector::Zero(panel_points);
-  curve.r_zeta = Vector::Constant(panel_points, -1);
-  complete(curve);
+  const Curve &curve = outlet.curve = disc_at(x, 1);
   const Vector none = Vector::Zero(panel_points);
   outlet.base_traction.resize(2 * panel_points);
   outlet.base_traction << none, curve.r.unaryExpr(&poiseuille_shear);
@@ -44,6 +36,19 @@ Outlet cap_outlet(const Pore &pore) {
 
 Pore up_to_outlet(const Pore &pore) {
   return with_ends(pore, pore.exit_x, outlet_distance(pore.entrance_distance));
+}
+
+Curve disc_at(double x, double radius) {
+  const Panels across = make_panels(Vector::LinSpaced(2, 0, radius), panel_points);
+  Curve disc;
+  disc.panel_points = panel_points;
+  disc.weights = across.weights;
+  disc.x = Vector::Constant(panel_points, x);
+  disc.r = radius - across.points.array();
+  disc.x_zeta = Vector::Zero(panel_points);
+  disc.r_zeta = Vector::Constant(panel_points, -1);
+  complete(disc);
+  return disc;
 }
 
 Curve cap_behind_exit(const Pore &pore) {

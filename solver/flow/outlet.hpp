@@ -34,6 +34,8 @@ struct Outlet {
 
 // The pore with two mouths as far as its outlet.
 Pore up_to_outlet(const Pore &pore);
+// A disc across the axis at x, with the normal downstream.
+Curve disc_at(double x, double radius);
 // The part of a sphere that closes the reservoir behind a second mouth where the wall ends: from the wall to the axis.
 Curve cap_behind_exit(const Pore &pore);
 

@@ -1,4 +1,5 @@
 #include "motion/error_estimate.hpp"
+#include "case/case.hpp"
 #include "observe/quantities.hpp"
 #include "observe/transit.hpp"
 #include <algorithm>

@@ -1,13 +1,15 @@
 #pragma once
 // Bounds of a march's errors from its differences to a slightly coarser one (motion; what was weighed:
 // paper-notes/methods.md).
-#include "case/case.hpp"
+#include "case/parameters.hpp"
 #include "observe/records.hpp"
 #include <map>
 #include <string>
 #include <vector>
 
 namespace capsule {
+
+struct Case;
 
 // Of what summary.json reports, by name: the largest difference times a margin over all rows at the same x_g, "v_g@x_g",
 // or at the same time, "v_g@time", and over the last part of the way, "v_g"; a single row may agree by accident. Neither

@@ -16,10 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Json finite_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json candidate_json(const Candidate &candidate) {
   Json json{{"law", candidate.law}};
   json["failure"] = candidate.failure.empty() ? Json() : Json(candidate.failure);
@@ -68,11 +64,6 @@ std::string fit_json(const std::string &identity, std::span<const Contour> conto
   return json.dump(2) + "\n";
 }
 
-// Where the model's origin, the centre of its area, is from its centre of mass.
-double centre_of(const FittedContour &contour, const Gauge &gauge) {
-  return gauge.centre(contour.state.unknowns.head(2 * contour.state.system->nodes()));
-}
-
 struct Shapes {
   std::string profiles, points;
 };
@@ -84,7 +75,7 @@ Shapes shapes_of(std::span<const Contour> contours, const FitResult &fit) {
     const SteadySystem &system = *fitted.state.system;
     const Gauge gauge(system.pore(), system.membrane());
     Vector position = fitted.state.unknowns.head(2 * system.nodes());
-    const double centre = centre_of(fitted, gauge);
+    const double centre = gauge.centre(position); // of mass; the model's origin is the centre of its area
     position.head(system.nodes()).array() -= centre;
     profiles.push_back(gauge.profile(static_cast<double>(k), position, system.flow(position).velocity));
     profiles.back().x_g = 0;
@@ -132,6 +123,81 @@ double quantile(const std::vector<double> &sorted, double part) {
   return sorted[k] + (at - static_cast<double>(k)) * (next - sorted[k]);
 }
 
+// Of all values that the fits have.
+std::vector<std::string> value_names(const std::vector<FitRow> &rows) {
+  std::vector<std::string> names;
+  for (const FitRow &row : rows)
+    for (const FittedValue &value : row.values)
+      if (std::ranges::find(names, value.name) == names.end())
+        names.push_back(value.name);
+  return names;
+}
+
+std::string fit_csv(const std::vector<FitRow> &rows, const std::vector<std::string> &names) {
+  std::vector<std::string> fields{"profile", "law", "failure", "residual", "noise", "warnings"};
+  for (const std::string &name : names)
+    for (const char *what : {"", " error", " low", " high"})
+      fields.push_back(fmt::format("{}{}", name, what));
+  std::string text = csv_row(fields);
+  for (const FitRow &row : rows) {
+    fields = {row.name,
+              row.law,
+              row.failure,
+              number_text(row.residual),
+              number_text(row.noise),
+              std::to_string(row.warnings)};
+    for (const std::string &name : names) {
+      const auto found = std::ranges::find(row.values, name, &FittedValue::name);
+      for (const auto member :
+           {&FittedValue::value, &FittedValue::standard_error, &FittedValue::low, &FittedValue::high})
+        fields.push_back(found == row.values.end() ? "" : number_text((*found).*member));
+    }
+    text += csv_row(fields);
+  }
+  return text;
+}
+
+std::string population_csv(const std::vector<FitRow> &rows, const std::vector<std::string> &names) {
+  std::string text = csv_row(
+      {"quantity", "profiles", "mean", "standard_deviation", "median", "from_5_percent", "to_95_percent"});
+  for (const std::string &name : names) {
+    const std::vector<double> values = values_of(rows, name);
+    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), std::ssize(values));
+    const double mean = all.mean();
+    const double deviation = std::sqrt((all - mean).square().sum() /
+                                       static_cast<double>(std::max<Eigen::Index>(all.size() - 1, 1)));
+    std::vector<std::string> fields{name, std::to_string(values.size())};
+    for (const double number :
+         {mean, deviation, quantile(values, 0.5), quantile(values, 0.05), quantile(values, 0.95)})
+      fields.push_back(number_text(number));
+    text += csv_row(fields);
+  }
+  return text;
+}
+
+std::string histogram_csv(const std::vector<FitRow> &rows, const std::vector<std::string> &names) {
+  constexpr std::size_t most_bins = 20;
+  std::string text = csv_row({"quantity", "from", "to", "profiles"});
+  for (const std::string &name : names) {
+    const std::vector<double> values = values_of(rows, name);
+    const double low = values.front(), range = values.back() - low;
+    const std::size_t bins =
+        range > 0
+            ? std::min(most_bins, 1 + static_cast<std::size_t>(std::sqrt(static_cast<double>(values.size()))))
+            : 1;
+    std::vector<std::size_t> counts(bins, 0);
+    for (const double value : values)
+      ++counts[range > 0 ? std::min(bins - 1, static_cast<std::size_t>((value - low) / range *
+                                                                       static_cast<double>(bins)))
+                         : 0];
+    for (std::size_t k = 0; k < bins; ++k)
+      text += csv_row({name, number_text(low + range * static_cast<double>(k) / static_cast<double>(bins)),
+                       number_text(low + range * static_cast<double>(k + 1) / static_cast<double>(bins)),
+                       std::to_string(counts[k])});
+  }
+  return text;
+}
+
 } // namespace
 
 void write_fit(const fs::path &directory, const std::string &identity, std::span<const Contour> contours,
@@ -174,67 +240,12 @@ std::optional<FitRow> read_fit(const fs::path &directory, const std::string &ide
 }
 
 void write_fit_tables(const fs::path &directory, const std::vector<FitRow> &rows) {
-  std::vector<std::string> names;
-  for (const FitRow &row : rows)
-    for (const FittedValue &value : row.values)
-      if (std::ranges::find(names, value.name) == names.end())
-        names.push_back(value.name);
-  std::vector<std::string> fields{"profile", "law", "failure", "residual", "noise", "warnings"};
-  for (const std::string &name : names)
-    for (const char *what : {"", " error", " low", " high"})
-      fields.push_back(fmt::format("{}{}", name, what));
-  std::string text = csv_row(fields);
-  for (const FitRow &row : rows) {
-    fields = {row.name,
-              row.law,
-              row.failure,
-              number_text(row.residual),
-              number_text(row.noise),
-              std::to_string(row.warnings)};
-    for (const std::string &name : names) {
-      const auto found = std::ranges::find(row.values, name, &FittedValue::name);
-      for (const auto member :
-           {&FittedValue::value, &FittedValue::standard_error, &FittedValue::low, &FittedValue::high})
-        fields.push_back(found == row.values.end() ? "" : number_text((*found).*member));
-    }
-    text += csv_row(fields);
-  }
-  write_atomically(directory / "fit.csv", text);
+  const std::vector<std::string> names = value_names(rows);
+  write_atomically(directory / "fit.csv", fit_csv(rows, names));
   if (rows.size() < 2)
     return;
-  constexpr std::size_t most_bins = 20;
-  std::string population = csv_row(
-      {"quantity", "profiles", "mean", "standard_deviation", "median", "from_5_percent", "to_95_percent"});
-  std::string histogram = csv_row({"quantity", "from", "to", "profiles"});
-  for (const std::string &name : names) {
-    const std::vector<double> values = values_of(rows, name);
-    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), std::ssize(values));
-    const double mean = all.mean();
-    const double deviation = std::sqrt((all - mean).square().sum() /
-                                       static_cast<double>(std::max<Eigen::Index>(all.size() - 1, 1)));
-    fields = {name, std::to_string(values.size())};
-    for (const double number :
-         {mean, deviation, quantile(values, 0.5), quantile(values, 0.05), quantile(values, 0.95)})
-      fields.push_back(number_text(number));
-    population += csv_row(fields);
-    const double low = values.front(), range = values.back() - low;
-    const std::size_t bins =
-        range > 0
-            ? std::min(most_bins, 1 + static_cast<std::size_t>(std::sqrt(static_cast<double>(values.size()))))
-            : 1;
-    std::vector<std::size_t> counts(bins, 0);
-    for (const double value : values)
-      ++counts[range > 0 ? std::min(bins - 1, static_cast<std::size_t>((value - low) / range *
-                                                                       static_cast<double>(bins)))
-                         : 0];
-    for (std::size_t k = 0; k < bins; ++k)
-      histogram +=
-          csv_row({name, number_text(low + range * static_cast<double>(k) / static_cast<double>(bins)),
-                   number_text(low + range * static_cast<double>(k + 1) / static_cast<double>(bins)),
-                   std::to_string(counts[k])});
-  }
-  write_atomically(directory / "population.csv", population);
-  write_atomically(directory / "histogram.csv", histogram);
+  write_atomically(directory / "population.csv", population_csv(rows, names));
+  write_atomically(directory / "histogram.csv", histogram_csv(rows, names));
 }
 
 } // namespace capsule

@@ -34,10 +34,6 @@ const char *status_text(Status status) {
   return "interrupted";
 }
 
-Json finite_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json to_json(const Value &value) {
   return std::visit(
       [](const auto &v) -> Json {

@@ -26,15 +26,6 @@ constexpr int most_nodes_of_a_branch = 300;
 constexpr int most_points = 500;
 constexpr double farthest_stretch = 10; // to which a branch without folds is followed
 
-// The keys along which a branch may go.
-std::vector<std::string> keys_of_branches() {
-  std::vector<std::string> names;
-  for (const Key &key : keys())
-    if (key.steady == SteadyRole::parameter)
-      names.push_back(key.name);
-  return names;
-}
-
 // What is recorded of a branch's points as they are found.
 class Record {
 public:
@@ -161,7 +152,7 @@ private:
 } // namespace
 
 void require_branch(const Case &input, const std::string &key, double to) {
-  const std::vector<std::string> names = keys_of_branches();
+  const std::vector<std::string> names = parameters_of_steady_states();
   if (std::ranges::find(names, key) == names.end()) {
     const std::string near = nearest_word(key, names);
     throw InputError(fmt::format("error: no branch along '{}'\n{}it goes along one of {}\n", key,
