@@ -66,6 +66,9 @@ echo "$good" | sed 's/0.04/inf/' | bad '3:25: error: .* must be a finite number,
 echo "$good
 capsule.aspect_ratio = 0" | bad '4:24: error: capsule.aspect_ratio = 0 is out of range'
 echo "$good
+capsule.shape = \"biconcave\"
+capsule.aspect_ratio = 0.5" | bad '5:24: error: capsule.aspect_ratio means nothing to capsule.shape = "biconcave"'
+echo "$good
 capsule.start_x = -40" | bad '4:19: error: capsule outside the reservoir'
 echo "$good
 capsule.start_x = 0" | sed 's/0.9/1.1/' | bad "4:19: error: capsule larger than the pore's entrance at its start"

@@ -40,6 +40,9 @@ struct Checks {
     if (c.flow.type == FlowType::pore && c.pore.shape != PoreShape::hyperbolic)
       chosen.complain({"pore.shape", "numerics"}, "numerics = \"paper\" has the hyperbolic pore only",
                       "another pore.shape needs numerics = \"standard\"");
+    if (c.capsule.shape != CapsuleShape::spheroid)
+      chosen.complain({"capsule.shape", "numerics"}, "numerics = \"paper\" has spheroids only",
+                      "capsule.shape = \"biconcave\" needs numerics = \"standard\"");
     if (c.output.resistance)
       chosen.complain({"output.resistance", "numerics"}, "numerics = \"paper\" computes no resistance",
                       "output.resistance = true needs numerics = \"standard\"");
@@ -97,12 +100,15 @@ struct Checks {
                       fmt::format("the exit section is at x = {}", number_text(c.pore.exit_x)));
 
     // r_w^2 - r^2 along the capsule is a parabola on each side of a lip.
-    const double slope = std::pow(half_width / half_length, 2);
+    // For a red cell the cylinder around it is taken.
+    const double slope =
+        c.capsule.shape == CapsuleShape::spheroid ? std::pow(half_width / half_length, 2) : 0;
     const double opening = c.pore.shape == PoreShape::tube
                                ? 0
                                : std::pow(std::tan(c.pore.opening_angle_deg * std::numbers::pi / 180), 2);
     const auto smallest = [&](double centre, double from, double to, double growth) {
-      const double x = std::clamp(centre * slope / (growth + slope), from, to);
+      const double nearest = growth + slope > 0 ? centre * slope / (growth + slope) : from;
+      const double x = std::clamp(nearest, from, to);
       return 1 - half_width * half_width + growth * x * x + slope * (x - centre) * (x - centre);
     };
     const auto outside = [&](double centre) { // of the lip at x = 0, on the side of negative x

@@ -104,7 +104,7 @@ struct Builder {
       const Value &value = assignment.values[chosen.selection[i]].value;
       const auto *word = std::get_if<std::string>(&value);
       const bool measured = std::holds_alternative<Measured>(key.field);
-      run.name += fmt::format("{}{}={}", run.name.empty() ? "" : ",", last_component(key.name),
+      run.name += fmt::format("{}{}={}", run.name.empty() ? "" : ",", short_name(key),
                               measured ? si_number(key)
                               : word   ? *word
                                        : value_text(value));

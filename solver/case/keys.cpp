@@ -1,4 +1,5 @@
 #include "case/keys.hpp"
+#include "base/text.hpp"
 #include "case/case.hpp"
 #include "law/law.hpp"
 #include <algorithm>
@@ -101,8 +102,11 @@ std::vector<Key> capsule_keys() {
                  "radius of the sphere of the same volume, R_eq; or physical.capsule_radius",
                  member<double>(CAPSULE_AT(capsule.radius)), from_to(1e-3, 10),
                  "required; 1 with flow.type = \"extension\"", true}),
-      parameter({"capsule.aspect_ratio", "axial over radial semi-axis, A/B",
-                 member<double>(CAPSULE_AT(capsule.aspect_ratio)), from_to(0.01, 100)}),
+      {"capsule.shape", "spheroid; biconcave: a red cell at rest, by Evans and Fung (1972)",
+       choice<CapsuleShape>(CAPSULE_AT(capsule.shape), {"spheroid", "biconcave"}), any_number},
+      only_with({"capsule.shape", {"spheroid"}},
+                parameter({"capsule.aspect_ratio", "axial over radial semi-axis, A/B",
+                           member<double>(CAPSULE_AT(capsule.aspect_ratio)), from_to(0.01, 100)})),
       parameter({"capsule.inflation",
                  "pre-stress, alpha_p: before the flow the membrane is stretched by 1 + alpha_p",
                  member<double>(CAPSULE_AT(capsule.inflation)), from_to(0, 1)}),
@@ -320,6 +324,12 @@ const std::vector<Key> &keys() {
 const Key *find_key(const std::string &name) {
   const auto found = std::ranges::find(keys(), name, &Key::name);
   return found == keys().end() ? nullptr : &*found;
+}
+
+std::string_view short_name(const Key &key) {
+  const std::string_view last = last_component(key.name);
+  const auto shares_it = [&](const Key &other) { return last_component(other.name) == last; };
+  return std::ranges::count_if(keys(), shares_it) == 1 ? last : key.name;
 }
 
 std::vector<std::string> parameters_of_steady_states() {

@@ -4,6 +4,7 @@
 #include "case/key.hpp"
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace capsule {
@@ -13,6 +14,9 @@ inline constexpr const char *flow_key = "flow.capillary_number";
 
 const std::vector<Key> &keys();
 const Key *find_key(const std::string &name);
+// As in names of runs and in expressions: "capillary_number" of "flow.capillary_number"; the whole name where another key
+// has the same last component.
+std::string_view short_name(const Key &key);
 
 // Whether the key means something to a case, and why not: `pore.exit_x means nothing to flow.type = "extension"`.
 bool means_something(const Key &key, const Case &physics);

@@ -15,6 +15,7 @@
 namespace capsule {
 
 enum class PoreShape { hyperbolic, two_mouths, tube, none };
+enum class CapsuleShape { spheroid, biconcave };
 enum class FlowType { pore, extension };
 enum class DriveBy { flow_rate, pressure }; // what is given and constant
 enum class Numerics { standard, paper };    // the best preset we have; section 3 of the paper
@@ -43,16 +44,20 @@ struct CapsuleSpec {
   double aspect_ratio = 1; // A/B
   double inflation = 0;    // alpha_p: the stress-free shape is smaller by 1/(1 + alpha_p)
   double start_x = -4;
+  CapsuleShape shape = CapsuleShape::spheroid; // biconcave: a red cell at rest, of fixed proportions
 };
 
-// Of the capsule before the flow, a spheroid: its half axes A along the axis of the pore and B across it.
+// Half thickness of a red cell, Evans and Fung (1972): z = (R_0/2) sqrt(1 - p^2) (c_0 + c_1 p^2 + c_2 p^4), p = r/R_0.
+constexpr double biconcave_thickness[] = {0.207161, 2.002558, -1.122762};
+
+// Of the capsule before the flow: half its length along the axis of the pore and half its width across it; of a spheroid
+// the half axes A and B. A red cell is longest between its axis and its rim.
 struct Extent {
   double half_length, half_width;
 };
-inline Extent extent(const CapsuleSpec &capsule) {
-  const double half_width = capsule.radius / std::cbrt(capsule.aspect_ratio);
-  return {half_width * capsule.aspect_ratio, half_width};
-}
+Extent extent(const CapsuleSpec &capsule);
+// Length over width, A/B.
+double aspect_ratio(const CapsuleSpec &capsule);
 
 // Of the membrane itself, scaled with mu R_t.
 struct SurfaceViscosity {

@@ -25,7 +25,7 @@ std::vector<std::string> split(const std::string &text, char separator) {
 }
 
 const Key *key_named(const std::string &name) {
-  const auto named = [&](const Key &key) { return key.name == name || last_component(key.name) == name; };
+  const auto named = [&](const Key &key) { return key.name == name || short_name(key) == name; };
   const auto found = std::ranges::find_if(keys(), named);
   return found == keys().end() ? nullptr : &*found;
 }

@@ -6,6 +6,11 @@ Vector initial_position(const CapsuleSpec &capsule, const Vector &angle) {
   const auto [half_length, half_width] = extent(capsule);
   Vector position(2 * angle.size());
   position << -half_length * angle.array().cos(), half_width * angle.array().sin();
+  if (capsule.shape == CapsuleShape::biconcave) {
+    const auto [c0, c1, c2] = biconcave_thickness;
+    const Eigen::ArrayXd u = angle.array().sin().square();
+    position.head(angle.size()) = -half_width / 2 * angle.array().cos() * (c0 + u * (c1 + u * c2));
+  }
   return position;
 }
 

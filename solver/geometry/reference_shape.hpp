@@ -1,8 +1,9 @@
 #pragma once
-// The capsule before the flow, a spheroid centred at x = 0, and its stress-free shape, which is smaller by
+// The capsule before the flow, a spheroid or a red cell centred at x = 0, and its stress-free shape, which is smaller by
 // 1/(1 + alpha_p). Its points are told by an angle in [0, pi] from the upstream to the downstream pole:
-// X = -A cos(angle), R = B sin(angle), A and B of extent(). The nodes of a mesh lie at angles that
-// any smooth odd function of zeta may give: shapes keep their parities and the basis its exponential convergence.
+// X = -A cos(angle), R = B sin(angle), A and B of extent(); of a red cell -X is half of Evans and Fung's thickness, which
+// is cos(angle) times a polynomial in R. The nodes of a mesh lie at angles that any smooth odd function of zeta may give:
+// shapes keep their parities and the basis its exponential convergence.
 #include "base/linear_algebra.hpp"
 #include "case/parameters.hpp"
 

@@ -28,7 +28,7 @@ bool is_run_list(const std::string &text, const fs::path &directory) {
     const std::size_t end = name.find('='), comma = name.rfind(',', end);
     const std::size_t begin = comma == std::string::npos ? 0 : comma + 1;
     const std::string key = name.substr(begin, end == std::string::npos ? 0 : end - begin);
-    return std::ranges::any_of(keys(), [&](const Key &k) { return last_component(k.name) == key; });
+    return std::ranges::any_of(keys(), [&](const Key &k) { return short_name(k) == key; });
   };
   const auto has_run = [](const fs::path &place) {
     std::error_code ignored;

@@ -8,7 +8,7 @@ namespace capsule {
 
 Resolution choose_resolution(const Case &physics) {
   const double digits = -std::log10(physics.accuracy);
-  const double aspect = physics.capsule.aspect_ratio;
+  const double aspect = aspect_ratio(physics.capsule);
   // The rim of a flat spheroid folds more sharply than any part of a sphere, as does the rear of a long one. One that is
   // wider than the tube rides closer to the wall: over panels that are too long the pressure drop oscillates.
   const double elongation = std::max(aspect, 1 / aspect);

@@ -218,6 +218,7 @@ NumericsFailure no_steady_state(const NumericsFailure &fold) {
 
 SteadyState by_homotopy(const Case &input, const Control &control) {
   const double flow = input.flow.capillary_number;
+  std::optional<NumericsFailure> last;
   for (const double part : {1.0, 0.5, 0.25, 0.125}) { // of the flow, in which the capsule may come to rest
     Case weaker = input;
     weaker.flow.capillary_number *= part;
@@ -228,8 +229,11 @@ SteadyState by_homotopy(const Case &input, const Control &control) {
     } catch (const NumericsFailure &failure) { // it may run away, or buckle on the way: other branches tell
       if (failure.kind == "fold")
         throw no_steady_state(failure);
+      last = failure;
     }
   }
+  if (input.capsule.shape != CapsuleShape::spheroid) // a small stiff sphere does not become one
+    throw NumericsFailure(last.value());
   std::optional<NumericsFailure> first;
   const double weakest = input.flow.type == FlowType::extension ? 0 : 0.03; // only a tube squeezes
   for (const double strength : {std::clamp(flow, weakest, 0.06), 0.02, 0.12}) {

@@ -134,9 +134,11 @@ BOOST_AUTO_TEST_CASE(sweeps_make_every_combination) {
 }
 
 BOOST_AUTO_TEST_CASE(names_of_runs_are_unambiguous) {
-  std::set<std::string_view> last;
+  std::set<std::string_view> names;
   for (const Key &key : keys())
-    BOOST_CHECK_MESSAGE(last.insert(last_component(key.name)).second, key.name);
+    BOOST_CHECK_MESSAGE(names.insert(short_name(key)).second, key.name);
+  BOOST_TEST(short_name(*find_key("flow.capillary_number")) == "capillary_number");
+  BOOST_TEST(short_name(*find_key("pore.shape")) == "pore.shape");
 }
 
 BOOST_AUTO_TEST_CASE(inherit_chains_and_overrides) {

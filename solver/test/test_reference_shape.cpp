@@ -28,6 +28,30 @@ BOOST_AUTO_TEST_CASE(a_spheroid_has_the_volume_of_its_sphere) {
   }
 }
 
+// Evans and Fung's cell of R_0 = 3.91 um: volume 94.0911 um^3, area 134.0897 um^2, and its thickness point by point. The
+// references were computed by adaptive quadrature of the formula over r.
+BOOST_AUTO_TEST_CASE(a_red_cell_by_evans_and_fung) {
+  const double width = 3.91;
+  CapsuleSpec capsule{.radius = 1, .shape = CapsuleShape::biconcave};
+  capsule.radius = width / extent(capsule).half_width;
+  BOOST_TEST(capsule.radius == 2.82154257433, tt::tolerance(1e-8));
+  const MeridianBasis basis = spectral_basis(48);
+  const Vector position = initial_position(capsule, basis.nodes);
+  const Trace curve = trace(sample(basis, basis.nodes, basis.weights), position);
+  const double volume = pi * (basis.weights.array() * curve.r.array().square() * curve.x_zeta.array()).sum();
+  const double area = 2 * pi * (basis.weights.array() * curve.r.array() * curve.arc.array()).sum();
+  BOOST_TEST(volume == 94.0910754537, tt::tolerance(1e-8));
+  BOOST_TEST(area == 134.089701713, tt::tolerance(1e-8));
+  BOOST_TEST(volume == 4 * pi / 3 * std::pow(capsule.radius, 3), tt::tolerance(1e-12));
+  const Eigen::ArrayXd p2 = (position.tail(48) / width).array().square();
+  const Eigen::ArrayXd thickness =
+      width / 2 * (1 - p2).max(0).sqrt() * (0.207161 + 2.002558 * p2 - 1.122762 * p2.square());
+  BOOST_TEST((position.head(48).array().abs() - thickness).abs().maxCoeff() < 1e-7);
+  const Vector dense = Vector::LinSpaced(20001, 0, pi);
+  const Vector fine = initial_position(capsule, dense);
+  BOOST_TEST(fine.head(20001).maxCoeff() == extent(capsule).half_length, tt::tolerance(1e-7));
+}
+
 // Spheroids scale alike: before the flow they have the radius that the case says.
 BOOST_AUTO_TEST_CASE(the_stress_free_shape_of_an_inflated_capsule_is_smaller) {
   const CapsuleSpec capsule{.radius = 0.9, .aspect_ratio = 0.7}, inflated{0.9, 0.7, 0.05};
