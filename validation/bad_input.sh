@@ -50,6 +50,10 @@ output.resistance = 1" | bad '4:21: error: output.resistance must be true or fal
 printf '%s\noutput.resistance = true\nnumerics = "paper"\n' "$good" |
   bad '4:21: error: numerics = "paper" computes no resistance'
 echo "$good
+flow.period = 3" | bad '4:15: error: an infinite train is computed as a steady state only'
+printf 'flow.type = "extension"\nuntil.time = 1\n%s\nflow.period = 3\n' "$good" | sed /radius/d |
+  bad '5:15: error: flow.period means nothing to flow.type = "extension"'
+echo "$good
 pore.opening_angle_deg = 120" | bad '4:26: error: .* is out of range'
 echo 'membrane.law = "skalak"
 capsule.radius = 0.9' | bad "1:1: error: missing key 'flow.capillary_number'"
@@ -181,6 +185,10 @@ expect 2 '^--set:1:1: error: expected key=value' "$capsule" run file.toml --set 
 expect 2 '^--set:1:22: error: flow.viscosity_ratio = -1' "$capsule" run file.toml --set flow.viscosity_ratio=-1
 expect 2 '^--set:1:12: error: steady states are computed at a given flow rate' \
   "$capsule" steady file.toml --set flow.drive=pressure
+expect 2 '^--set:1:13: error: flow.period = 0.9 of the tube holds less than one capsule' \
+  "$capsule" steady file.toml --set flow.period=0.9
+expect 2 "^error: no branch along 'flow.period': the case has no train" \
+  "$capsule" branch file.toml --along flow.period --to 3
 expect 2 "^--set:1:12: error: unknown flow.drive 'pump'" "$capsule" run file.toml --set flow.drive=pump
 for typed in 1.0d-3 1d-3 0,04 .04; do
   expect 2 '^write [01].[0-9e.-]*$' "$capsule" run file.toml --set "flow.capillary_number=$typed"

@@ -15,7 +15,7 @@ constexpr int most_steps = 60;
 SteadyPoint point_at(const SteadyState &state, const Case &physics, double value) {
   state.system->set_parameters(physics);
   const SteadyRecord record = record_steady(state, physics.flow.viscosity_ratio);
-  return {value, record.row, record.rates.at("growth_rate"),
+  return {value, record.row, record.further.at("growth_rate"),
           std::abs(state.unknowns[state.unknowns.size() - 1])};
 }
 

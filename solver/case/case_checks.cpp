@@ -175,6 +175,22 @@ struct Checks {
                       "until.tension must lie above what capsule.inflation brings about");
   }
 
+  void check_train(const Task &task) {
+    const Case &c = physics;
+    if (task.motion)
+      chosen.complain({"flow.period"}, "an infinite train is computed as a steady state only",
+                      "`capsule steady` and `capsule branch` do; leave out flow.period to march one capsule");
+    const double shortest = 4.0 / 3 * std::pow(c.capsule.radius, 3); // that holds the volume
+    if (c.flow.period <= shortest)
+      chosen.complain(
+          {"flow.period", "capsule.radius"},
+          fmt::format("flow.period = {} of the tube holds less than one capsule", number_text(c.flow.period)),
+          fmt::format("it must lie above 4/3 capsule.radius^3 = {:.4g}", shortest));
+    if (c.output.resistance)
+      chosen.complain({"output.resistance", "flow.period"}, "the resistance of a train is not computed",
+                      "leave out output.resistance, or flow.period");
+  }
+
   void check(const Task &task) {
     const Case &c = physics;
     check_scheme();
@@ -190,6 +206,8 @@ struct Checks {
           {"flow.drive"}, "steady states are computed at a given flow rate",
           "under constant pressure they are the same at flow_rate times flow.capillary_number: leave "
           "out flow.drive");
+    if (c.flow.period > 0)
+      check_train(task);
     if (c.flow.type == FlowType::extension)
       check_extension();
     else if (c.pore.shape == PoreShape::none)

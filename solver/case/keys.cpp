@@ -183,6 +183,10 @@ std::vector<Key> flow_keys() {
                  member<double>(CAPSULE_AT(flow.capillary_number)), above(0), "required", true}),
       {"flow.viscosity_ratio", "internal over external viscosity, lambda",
        member<double>(CAPSULE_AT(flow.viscosity_ratio)), from_to(1e-4, 1e4)},
+      in_a_pore(parameter(
+          {"flow.period",
+           "steady states of an infinite train of equal capsules: distance of neighbouring centres",
+           member<double>(CAPSULE_AT(flow.period)), from_to(1e-2, 1000), "none: one capsule alone"})),
   };
 }
 

@@ -76,6 +76,7 @@ struct FlowSpec {
   DriveBy drive = DriveBy::flow_rate;
   double capillary_number = 0; // epsilon
   double viscosity_ratio = 1;  // lambda
+  double period = 0;           // distance of neighbouring centres in an infinite train; 0: one capsule alone
 };
 
 // 0: chosen from the accuracy asked for (standard preset) or the paper's value (paper preset).

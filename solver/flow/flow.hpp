@@ -20,6 +20,8 @@
 #include "flow/layer_identities.hpp"
 #include "flow/recycled_solver.hpp"
 #include "membrane/surface_viscosity.hpp"
+#include <utility>
+#include <vector>
 
 namespace capsule {
 
@@ -44,6 +46,7 @@ public:
 
   const Wall &wall() const { return wall_; }
   const MembraneMesh &mesh() const { return mesh_; }
+  void place_images(std::vector<double> shifts) { image_shifts_ = std::move(shifts); }
 
   // Everything that depends on the position alone, with the layers that this flow needs or with both. Refers to
   // this flow.

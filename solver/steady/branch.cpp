@@ -38,7 +38,7 @@ public:
     SteadyRecord record = record_steady(state, viscosity_ratio_);
     record.row.time = path_.value(part); // a branch has no time: the key's value takes its place
     record.profile.time = record.row.time;
-    const BranchRow point{path_.value(part), record.row, record.rates.at("growth_rate")};
+    const BranchRow point{path_.value(part), record.row, record.further.at("growth_rate")};
     latest_ = std::move(record);
     if (profile)
       keep_latest();
@@ -168,6 +168,9 @@ void require_branch(const Case &input, const std::string &key, double to) {
                                  "allowed: " + allowed_text(*find_key(key))));
   if (key == "capsule.radius" && input.flow.type == FlowType::extension)
     throw InputError("error: no branch along 'capsule.radius': it is the unit of length in an extension\n");
+  if (key == "flow.period" && input.flow.period == 0)
+    throw InputError("error: no branch along 'flow.period': the case has no train\n"
+                     "give flow.period, where the branch begins\n");
   if (!KeyPath(key, input, to).needed())
     throw InputError(fmt::format("error: {} = {} is where the branch begins\n", key, number_text(to)));
 }

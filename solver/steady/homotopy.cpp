@@ -214,9 +214,7 @@ NumericsFailure no_steady_state(const NumericsFailure &fold) {
   return {"fold", fmt::format("no steady state: {}", fold.what()), fold.advice};
 }
 
-} // namespace
-
-SteadyState by_homotopy(const Case &input, const Control &control) {
+SteadyState without_neighbours(const Case &input, const Control &control) {
   const double flow = input.flow.capillary_number;
   std::optional<NumericsFailure> last;
   for (const double part : {1.0, 0.5, 0.25, 0.125}) { // of the flow, in which the capsule may come to rest
@@ -253,6 +251,34 @@ SteadyState by_homotopy(const Case &input, const Control &control) {
   throw NumericsFailure(first->kind == "fold" ? "unresolved" : first->kind,
                         fmt::format("no way found from a small stiff sphere: {}", first->what()),
                         first->kind == "fold" ? "try a larger membrane.bending_ratio" : first->advice);
+}
+
+// The state of a capsule alone, and then its neighbours: near enough to be felt at once, or coming closer if Newton's
+// method does not get there.
+SteadyState among_neighbours(const Case &input, const Control &control) {
+  constexpr double out_of_reach = 6;
+  constexpr const char *period_key = "flow.period";
+  Case alone = input;
+  alone.flow.period = 0;
+  const SteadyState state = without_neighbours(alone, control);
+  const auto nodes = static_cast<int>(state.system->nodes());
+  SteadyState train = moved_to_mesh(input, nodes, state);
+  try {
+    train.unknowns = solve_steady(*train.system, train.unknowns);
+    return train;
+  } catch (const NumericsFailure &) {
+    const double length = 2 * state.unknowns.head(nodes).cwiseAbs().maxCoeff();
+    alone.flow.period = std::max(length + out_of_reach, input.flow.period);
+    Homotopy homotopy(input, alone, moved_to_mesh(alone, nodes, state), control);
+    homotopy.vary(period_key, input.flow.period);
+    return homotopy.state();
+  }
+}
+
+} // namespace
+
+SteadyState by_homotopy(const Case &input, const Control &control) {
+  return input.flow.period > 0 ? among_neighbours(input, control) : without_neighbours(input, control);
 }
 
 } // namespace capsule

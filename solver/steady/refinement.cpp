@@ -96,9 +96,15 @@ SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
   const SteadySystem &system = *state.system;
   SteadyRecord record = measure(state);
   const std::complex<double> slowest = growth_rates(system, state.unknowns, viscosity_ratio)[0];
-  record.rates = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
+  record.further = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
   if (system.input().flow.type == FlowType::pore)
-    record.rates["growth_per_length"] = slowest.real() / record.row.v_g;
+    record.further["growth_per_length"] = slowest.real() / record.row.v_g;
+  const double period = system.input().flow.period;
+  if (period > 0) {
+    constexpr double poiseuille = 8; // pressure drop of a tube per radius
+    record.further["apparent_viscosity"] = 1 + record.row.pressure_drop / (poiseuille * period);
+    record.further["min_gap"] = system.gap_to_next(state.unknowns.head(2 * system.nodes()));
+  }
   return record;
 }
 

@@ -23,12 +23,16 @@ Matrix slopes(SteadySystem &system, const Vector &unknowns, const SteadySystem::
     const std::string &key = keys[static_cast<std::size_t>(k)];
     const double value = number(key, here);
     const double h = step_of(key, value);
+    const bool moves_images = key == "flow.period" && value > 0;
     const auto at = [&](double steps) {
       system.set_parameters(with_number(here, key, value + steps * h));
-      return system.load_and_constraints(unknowns);
+      return moves_images ? system.residual(unknowns) : system.load_and_constraints(unknowns);
     };
     const Vector slope = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
-    result.col(k) << linear.single_layer * slope.head(n2), slope.tail(2);
+    if (moves_images)
+      result.col(k) = slope;
+    else
+      result.col(k) << linear.single_layer * slope.head(n2), slope.tail(2);
   }
   system.set_parameters(here);
   return result;

@@ -8,6 +8,8 @@
 // load's own condition, together below 1e-8 of the slope (test_slopes.cpp). Newton's method needs less: after a
 // correction of length c, a relative error e of the parameter's column leaves e c. With corrections of about 1e-4
 // before the last one, e < 1e-5 keeps that below the tolerance of 1e-9.
+//   The period of a train moves images: it enters through the flow. Then the whole residual is differentiated likewise, to
+// about 1e-6, as kernels are integrated to 1e-9.
 #include "steady/steady_system.hpp"
 #include <span>
 #include <string>

@@ -18,10 +18,10 @@ Outcome steady(const Case &input, const std::optional<Profile> &from, const Cont
     const SteadyRecord record = record_steady(refined.state, input.flow.viscosity_ratio);
     outcome.status = Status::steady;
     outcome.message = refined.warning;
-    if (record.rates.at("growth_rate") > 0)
+    if (record.further.at("growth_rate") > 0)
       outcome.message += fmt::format("{}this steady state is unstable", outcome.message.empty() ? "" : "; ");
     outcome.error_estimate = refined.error_estimate;
-    outcome.further = record.rates;
+    outcome.further = record.further;
     outcome.membrane_nodes = static_cast<int>(refined.state.system->nodes());
     outcome.last.series = {record.row};
     outcome.last.profiles = {record.profile};

@@ -1,11 +1,14 @@
 #include "steady/steady_system.hpp"
 #include "base/failure.hpp"
+#include "geometry/gap.hpp"
 #include "membrane/load.hpp"
 #include "membrane/surface_viscosity.hpp"
 #include "scene/make_flow.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace capsule {
 namespace {
@@ -17,10 +20,7 @@ constexpr double wall_beyond = 4.7;
 constexpr Advice advice{.at_the_wall = "try a larger flow.capillary_number",
                         .at_the_end = "try a smaller flow.capillary_number"};
 
-// Half the length of the tube for a capsule whose tips are as far from its centre: with room to grow.
-double tube_for(double tip) {
-  return 1.25 * tip + wall_beyond;
-}
+constexpr double room = 1.25; // for the membrane to grow
 
 } // namespace
 
@@ -29,16 +29,38 @@ SteadySystem::SteadySystem(const Case &input, const Resolution &resolution, cons
     : resolution_(resolution), membrane_(standard_membrane(input.capsule, input.membrane, resolution)) {
   membrane_.node_angle = node_angle;
   set_parameters(input);
-  half_length_ = tube_for(tip);
+  tip_ = room * tip;
   build_flow();
 }
 
+// Those nearer than wall_beyond.
+int SteadySystem::images_on_each_side() const {
+  const double period = input_.flow.period;
+  return period > 0 ? static_cast<int>(std::ceil((2 * tip_ + wall_beyond) / period)) - 1 : 0;
+}
+
+// The last image lies within 2 tip_ + wall_beyond, whatever the period: a branch along it keeps its tube.
+double SteadySystem::needed_half_length() const {
+  const double alone = tip_ + wall_beyond;
+  return input_.flow.period > 0 ? alone + 2 * tip_ + wall_beyond : alone;
+}
+
+void SteadySystem::place_images() {
+  std::vector<double> shifts;
+  for (int k = 1; k <= images_on_each_side(); ++k)
+    for (const double side : {-1, 1})
+      shifts.push_back(side * k * input_.flow.period);
+  flow_->place_images(std::move(shifts));
+}
+
 void SteadySystem::build_flow() {
+  half_length_ = needed_half_length();
   resolution_.flow.fine_half_length = half_length_ - wall_beyond;
   if (input_.pore.shape != PoreShape::none)
     pore_ = make_pore({.shape = PoreShape::tube, .exit_x = half_length_, .entrance_distance = half_length_});
   flow_ =
       make_flow(pore_, {.type = input_.flow.type, .capillary_number = 1}, membrane_.basis, resolution_.flow);
+  place_images();
 }
 
 void SteadySystem::set_parameters(const Case &input) {
@@ -47,6 +69,12 @@ void SteadySystem::set_parameters(const Case &input) {
   centre_weights_ = nodal_area(membrane_, membrane_.initial);
   centre_weights_ /= centre_weights_.sum();
   volume_ = 4 * pi / 3 * std::pow(input.capsule.radius, 3);
+  if (!flow_)
+    return;
+  if (needed_half_length() > half_length_)
+    build_flow();
+  else
+    place_images();
 }
 
 Vector SteadySystem::initial() const {
@@ -66,9 +94,9 @@ void SteadySystem::fit_tube(const Vector &unknowns) {
   if (!pore_)
     return;
   const double tip = unknowns.head(nodes()).cwiseAbs().maxCoeff();
-  if (tip + wall_beyond < half_length_)
+  if (tip < tip_)
     return;
-  half_length_ = tube_for(tip);
+  tip_ = room * tip;
   build_flow();
 }
 
@@ -137,9 +165,27 @@ Vector SteadySystem::equations(const Vector &unknowns, const Vector &velocity) c
   return rows;
 }
 
+void SteadySystem::require_shape(const Vector &position) const {
+  require_capsule(pore_, position, advice);
+  if (input_.flow.period == 0)
+    return;
+  const Chain here = chain_of(membrane_.basis, position, 1);
+  Chain next = here;
+  next.x.array() += input_.flow.period;
+  if (overlap(here, next))
+    throw NumericsFailure("touching", "neighbouring capsules of the train touch", "try a larger flow.period");
+}
+
+double SteadySystem::gap_to_next(const Vector &position) const {
+  const Chain here = chain_of(membrane_.basis, position, 8);
+  Chain next = here;
+  next.x.array() += input_.flow.period;
+  return gap_between(here, next).width;
+}
+
 Vector SteadySystem::residual(const Vector &unknowns) const {
   const Vector position = unknowns.head(2 * nodes());
-  require_capsule(pore_, position, advice);
+  require_shape(position);
   Recycled unused;
   return equations(unknowns, flow_->solve(flow_->interact(position), load(position), unused).velocity);
 }
@@ -147,7 +193,7 @@ Vector SteadySystem::residual(const Vector &unknowns) const {
 SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) const {
   const Eigen::Index n = nodes();
   const Vector position = unknowns.head(2 * n);
-  require_capsule(pore_, position, advice);
+  require_shape(position);
   Recycled unused;
   const Interaction interaction = flow_->interact(position, Layers::both);
   const Vector velocity = flow_->solve(interaction, load(position), unused).velocity;
@@ -178,6 +224,7 @@ FlowState SteadySystem::flow(const Vector &position) const {
   const Interaction interaction = flow_->interact(position);
   const Vector nodal_load = load(position);
   FlowState state = flow_->solve(interaction, nodal_load, unused);
+  state.pressure_drop /= 2 * images_on_each_side() + 1; // a part for each, as all loads are equal
   state.pressure_drop_reciprocal = flow_->reciprocal_pressure_drop(interaction, nodal_load, state, unused);
   return state;
 }

@@ -8,6 +8,8 @@
 // others. The slack makes up for it; its value is the error of discretisation. A hyperbolic pore is replaced by its
 // tube, which is infinitely long in effect: the disturbance falls by exp(-4.47) per radius of the tube, and the wall is
 // built as far as there is any.
+//   A train of equal capsules is one of them with its images, on either side as many as it feels. They move with it: the
+// derivative of its velocity is that of equal displacements of all.
 // Throws NumericsFailure for shapes that are no capsule in the tube.
 #include "case/case.hpp"
 #include "scene/scene.hpp"
@@ -33,7 +35,7 @@ public:
   double largest_stretch(const Vector &unknowns) const;     // meridional, at the nodes
   const std::optional<Pore> &pore() const { return pore_; } // the tube that stands for it
 
-  // Builds a longer tube if the membrane has come too near to its ends.
+  // Builds a longer tube, with more images, if the membrane has come too near to its ends.
   void fit_tube(const Vector &unknowns);
   // The largest part of a change, up to 1, that leaves to each node a share of its distance to the wall and to the axis.
   double admissible_step(const Vector &unknowns, const Vector &change) const;
@@ -50,10 +52,16 @@ public:
   // f = q/epsilon (2N), on which the velocity depends linearly, and the left sides of the two constraints.
   Vector load_and_constraints(const Vector &unknowns) const;
 
-  FlowState flow(const Vector &position) const; // with both pressure drops
+  FlowState flow(const Vector &position) const; // with both pressure drops, of one capsule
+  // Of a train: the liquid between neighbours.
+  double gap_to_next(const Vector &position) const;
 
 private:
   void build_flow();
+  int images_on_each_side() const;
+  double needed_half_length() const;
+  void place_images();
+  void require_shape(const Vector &position) const;
   Vector equations(const Vector &unknowns, const Vector &velocity) const;
   Eigen::Vector2d constraints(const Vector &position) const;
   Eigen::Matrix<double, 2, Eigen::Dynamic> constraint_slopes(const Vector &position) const;
@@ -64,6 +72,7 @@ private:
   Resolution resolution_;
   double volume_ = 0;
   Vector centre_weights_;  // nodal areas as parts of the undeformed area
+  double tip_ = 0;         // the farthest that the membrane may reach from x = 0
   double half_length_ = 0; // of the tube
   Membrane membrane_;
   std::optional<Flow> flow_;

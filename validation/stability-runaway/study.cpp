@@ -118,7 +118,7 @@ SteadyRecord steady_record(double capillary_number) {
 }
 
 std::string tube_text(double capillary_number, bool below) {
-  const double end = below ? relaxed / -steady_record(capillary_number).rates.at("growth_rate") : longest;
+  const double end = below ? relaxed / -steady_record(capillary_number).further.at("growth_rate") : longest;
   const Way way = march_on(capillary_number, end);
   std::string text =
       fmt::format("{} {:.6f} {:.9f} {:.3f} {:.2e}\n", way.status, time_to(far_stretch, way.rows),

@@ -92,7 +92,7 @@ std::string row_of_map(const MembraneLaw &law, int row) {
     lines[column] =
         fmt::format("{},{:.3g},{:.6f},{:.7f},{:.7f},{:.7f},{:.6f},{:.5f}\n", law.law().name, radius_of(row),
                     now.flow.capillary_number, record.row.pressure_drop, record.row.v_g, record.row.min_film,
-                    record.row.max_stretch, record.rates.at("growth_rate"));
+                    record.row.max_stretch, record.further.at("growth_rate"));
     return record.row.pressure_drop;
   };
   const double pressure = look_at(middle_state, middle);
