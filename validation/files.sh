@@ -23,6 +23,7 @@ ends 0 steady case.toml --out steady
 sed '/physical/,$d' case.toml >branch.toml
 printf '[capsule]\nradius = 0.5\n[flow]\ncapillary_number = 0.05\n' >>branch.toml
 ends 0 branch branch.toml --along flow.capillary_number --to 0.051 --out branch
+ends 0 steady branch.toml --set flow.period=2 --set output.resistance=false --out train
 sed 's/until.time = 0.1/pore.shape = "two-mouths"/' case.toml >transit.toml
 ends 0 run transit.toml --set pore.exit_x=2 --set until.x_g=3.5 --out transit
 # The start is written once, however its place is rounded, if a profile is asked for there.
