@@ -79,36 +79,55 @@ Vector Flow::double_density(const Vector &velocity) const {
   return equal_viscosities_ ? Vector() : excess_viscosity_.cwiseProduct(velocity);
 }
 
-// R of all membranes; empty where none is viscous.
-Matrix Flow::friction(const Interaction &interaction) const {
-  if (surface_viscosities_.empty())
-    return {};
-  Matrix friction = Matrix::Zero(2 * mesh_.nodes, 2 * mesh_.nodes);
+// Of each membrane; empty where none is viscous.
+std::vector<SurfaceFriction> Flow::frictions(const Interaction &interaction) const {
+  std::vector<SurfaceFriction> frictions;
   const Vector nodal_area = 2 * std::numbers::pi * interaction.shape().nodes.area;
-  for (std::size_t k = 0; k < mesh_.parts.size(); ++k) {
+  for (std::size_t k = 0; k < surface_viscosities_.size(); ++k) {
     const MembraneMesh::Part &part = mesh_.parts[k];
-    const std::vector<Eigen::Index> rows = mesh_.rows(k);
-    friction(rows, rows) = surface_friction(part.at_panels, nodal_area.segment(part.first_node, part.nodes()),
-                                            interaction.shape().position(rows), surface_viscosities_[k]);
+    frictions.emplace_back(part.at_panels, nodal_area.segment(part.first_node, part.nodes()),
+                           interaction.shape().position(mesh_.rows(k)), surface_viscosities_[k]);
   }
-  return friction;
+  return frictions;
+}
+
+// R of all membranes.
+Matrix Flow::friction_matrix(const std::vector<SurfaceFriction> &frictions) const {
+  Matrix matrix = Matrix::Zero(2 * mesh_.nodes, 2 * mesh_.nodes);
+  for (std::size_t k = 0; k < frictions.size(); ++k) {
+    const std::vector<Eigen::Index> rows = mesh_.rows(k);
+    matrix(rows, rows) = frictions[k].matrix();
+  }
+  return matrix;
+}
+
+// R v.
+Vector Flow::friction_load(const std::vector<SurfaceFriction> &frictions, const Vector &velocity) const {
+  Vector load = Vector::Zero(velocity.size());
+  for (std::size_t k = 0; k < frictions.size(); ++k) {
+    const std::vector<Eigen::Index> rows = mesh_.rows(k);
+    load(rows) = frictions[k].load(velocity(rows));
+  }
+  return load;
 }
 
 Vector Flow::load_with_friction(const Interaction &interaction, const Vector &f,
                                 const Vector &velocity) const {
-  return surface_viscosities_.empty() ? f : Vector(f - friction(interaction) * velocity);
+  return surface_viscosities_.empty() ? f : Vector(f - friction_load(frictions(interaction), velocity));
 }
 
 // beta + (S_MM - C A^(-1) S_BM) R/(8 pi) - (D_MM - C A^(-1) D_BM) (lambda - 1) on nodal velocities.
 Matrix Flow::membrane_operator(const Interaction &interaction, const LayerIdentities &identities,
-                               const RowMatrix &answer_of_wall, const Matrix &friction) const {
+                               const RowMatrix &answer_of_wall,
+                               const std::vector<SurfaceFriction> &frictions) const {
   const Eigen::Index n2 = 2 * mesh_.nodes;
   Matrix matrix = equal_viscosities_
                       ? Matrix(Matrix::Zero(n2, n2))
                       : Matrix(-identities.double_layer(double_with_wall(interaction, answer_of_wall)) *
                                excess_viscosity_.asDiagonal());
-  if (friction.size() > 0)
-    matrix += identities.without_flux(single_with_wall(interaction, answer_of_wall)) * friction;
+  if (!frictions.empty())
+    matrix +=
+        identities.without_flux(single_with_wall(interaction, answer_of_wall)) * friction_matrix(frictions);
   matrix.diagonal() += beta_;
   return matrix;
 }
@@ -118,11 +137,11 @@ Matrix Flow::membrane_operator(const Interaction &interaction, const LayerIdenti
 Vector Flow::membrane_velocity(const Interaction &interaction, const Vector &right, Vector &at_wall,
                                Recycled &recycled) const {
   const LayerIdentities identities = layer_identities(mesh_, interaction.shape());
-  const Matrix friction = this->friction(interaction);
+  const std::vector<SurfaceFriction> frictions = this->frictions(interaction);
   const auto own_densities = [&](const Vector &velocity) { // but for motions as a whole
     Densities own{.single = {}, .dbl = double_density(velocity)};
-    if (friction.size() > 0)
-      own.single = -stokeslet_factor * (friction * velocity);
+    if (!frictions.empty())
+      own.single = -stokeslet_factor * friction_load(frictions, velocity);
     if (!equal_viscosities_)
       own.dbl -= identities.whole_motion(own.dbl);
     return own;
@@ -142,7 +161,7 @@ Vector Flow::membrane_velocity(const Interaction &interaction, const Vector &rig
       interaction.shape().position, solver_tolerance_, recycled,
       [&](const Vector &guess) { return residual(right, at_wall, guess); },
       [&](const Vector &direction) { return Vector(-residual(nothing, nothing_at_wall, direction)); },
-      [&] { return membrane_operator(interaction, identities, interaction.answer_of_wall(), friction); }));
+      [&] { return membrane_operator(interaction, identities, interaction.answer_of_wall(), frictions); }));
   at_wall += Flow::at_wall(interaction, own_densities(velocity));
   return velocity;
 }
@@ -187,7 +206,7 @@ Matrix Flow::mobility(const Interaction &interaction, Recycled &recycled) const 
   if (equal_viscosities_ && surface_viscosities_.empty())
     return single;
   const LayerIdentities identities = layer_identities(mesh_, interaction.shape());
-  recycled.inverse = inverse_of(membrane_operator(interaction, identities, answer, friction(interaction)));
+  recycled.inverse = inverse_of(membrane_operator(interaction, identities, answer, frictions(interaction)));
   return recycled.inverse * identities.without_flux(single);
 }
 

@@ -71,10 +71,13 @@ private:
   static Vector at_wall(const Interaction &interaction, const Densities &densities);
 
   Vector double_density(const Vector &velocity) const;
-  Matrix friction(const Interaction &interaction) const;
+  std::vector<SurfaceFriction> frictions(const Interaction &interaction) const;
+  Matrix friction_matrix(const std::vector<SurfaceFriction> &frictions) const;
+  Vector friction_load(const std::vector<SurfaceFriction> &frictions, const Vector &velocity) const;
   Vector load_with_friction(const Interaction &interaction, const Vector &f, const Vector &velocity) const;
   Matrix membrane_operator(const Interaction &interaction, const LayerIdentities &identities,
-                           const RowMatrix &answer_of_wall, const Matrix &friction) const;
+                           const RowMatrix &answer_of_wall,
+                           const std::vector<SurfaceFriction> &frictions) const;
   Vector membrane_velocity(const Interaction &interaction, const Vector &right, Vector &at_wall,
                            Recycled &recycled) const;
 

@@ -3,21 +3,32 @@
 
 namespace capsule {
 
-Matrix surface_dissipation(const Sampling &at, const Vector &position, const SurfaceViscosity &viscosity) {
+SurfaceFriction::SurfaceFriction(const Sampling &at, const Vector &nodal_area, const Vector &position,
+                                 const SurfaceViscosity &viscosity)
+    : nodal_area_(nodal_area.replicate(2, 1)) {
   const Trace curve = trace(at, position);
-  const Eigen::Index n = position.size() / 2;
-  const Matrix sum = area_change(at, curve); // e_s + e_phi
-  Matrix difference = sum;                   // e_s - e_phi
-  difference.rightCols(n) -= (2 * curve.r.cwiseInverse()).asDiagonal() * at.odd[0];
+  sum_ = area_change(at, curve);
+  difference_ = sum_;
+  difference_.rightCols(nodal_area.size()) -= (2 * curve.r.cwiseInverse()).asDiagonal() * at.odd[0];
   const Vector area = 2 * std::numbers::pi * at.weights.array() * curve.r.array() * curve.arc.array();
-  return sum.transpose() * (viscosity.dilatational * area).asDiagonal() * sum +
-         difference.transpose() * (viscosity.shear * area).asDiagonal() * difference;
+  of_sum_ = viscosity.dilatational * area;
+  of_difference_ = viscosity.shear * area;
 }
 
-Matrix surface_friction(const Sampling &at, const Vector &nodal_area, const Vector &position,
-                        const SurfaceViscosity &viscosity) {
-  return nodal_area.cwiseInverse().replicate(2, 1).asDiagonal() *
-         surface_dissipation(at, position, viscosity);
+Matrix SurfaceFriction::dissipation() const {
+  return sum_.transpose() * of_sum_.asDiagonal() * sum_ +
+         difference_.transpose() * of_difference_.asDiagonal() * difference_;
+}
+
+Matrix SurfaceFriction::matrix() const {
+  return nodal_area_.cwiseInverse().asDiagonal() * dissipation();
+}
+
+Vector SurfaceFriction::load(const Vector &velocity) const {
+  const Vector sum = sum_ * velocity, difference = difference_ * velocity;
+  const Vector power = sum_.transpose() * of_sum_.cwiseProduct(sum) +
+                       difference_.transpose() * of_difference_.cwiseProduct(difference);
+  return power.cwiseQuotient(nodal_area_);
 }
 
 } // namespace capsule

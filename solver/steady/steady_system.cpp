@@ -204,8 +204,9 @@ SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) cons
   result.single_layer = std::move(motion.single_layer);
   result.double_layer = std::move(motion.double_layer);
   if (is_viscous(input_.membrane.viscosity))
-    result.friction = surface_friction(interaction.mesh().parts[0].at_panels, nodal_area(membrane_, position),
-                                       position, input_.membrane.viscosity);
+    result.friction = SurfaceFriction(interaction.mesh().parts[0].at_panels, nodal_area(membrane_, position),
+                                      position, input_.membrane.viscosity)
+                          .matrix();
   Matrix &jacobian = result.jacobian;
   jacobian = Matrix::Zero(2 * n + 2, 2 * n + 2);
   jacobian.topLeftCorner(2 * n, 2 * n) = motion.equal_viscosities;

@@ -56,8 +56,11 @@ BOOST_AUTO_TEST_CASE(power_of_the_rates_of_stretch) {
   const double dilatation = (area * (rate.col(0) + rate.col(1)).array().square()).sum();
   for (const auto &[viscosity, power] :
        {std::pair{SurfaceViscosity{2, 0}, 2 * shear}, std::pair{SurfaceViscosity{0, 3}, 3 * dilatation}}) {
-    const Matrix matrix = surface_dissipation(at, position, viscosity);
+    const SurfaceFriction friction(at, nodal_area(membrane, position), position, viscosity);
+    const Matrix matrix = friction.dissipation();
     BOOST_TEST(velocity.dot(matrix * velocity) == power, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(largest(friction.load(velocity) - friction.matrix() * velocity) <
+               1e-12 * largest(friction.load(velocity)));
     BOOST_TEST((matrix - matrix.transpose()).cwiseAbs().maxCoeff() < 1e-12 * matrix.cwiseAbs().maxCoeff());
     Vector shifted = Vector::Zero(80);
     shifted.head(40).setOnes();
@@ -86,8 +89,9 @@ BOOST_AUTO_TEST_CASE(energy_becomes_heat) {
   Recycled recycled;
   const FlowState state = flow.solve(interaction, load, recycled);
   const double lost = -energy_gradient(membrane, position).dot(state.velocity);
-  const double in_membrane =
-      state.velocity.dot(surface_dissipation(membrane.sampling, position, viscosity) * state.velocity);
+  const double in_membrane = state.velocity.dot(
+      SurfaceFriction(membrane.sampling, nodal_area(membrane, position), position, viscosity).dissipation() *
+      state.velocity);
 
   const auto velocity_at = [&](double x, double r) {
     const Targets point{Vector::Constant(1, x), Vector::Constant(1, r), {}, {}};
@@ -127,7 +131,8 @@ BOOST_AUTO_TEST_CASE(friction_resists_every_motion) {
     const Vector position = random_position(membrane, 5);
     const Interaction interaction = flow.interact(position);
     const Matrix friction =
-        surface_friction(flow.mesh().parts[0].at_panels, nodal_area(membrane, position), position, {1, 1});
+        SurfaceFriction(flow.mesh().parts[0].at_panels, nodal_area(membrane, position), position, {1, 1})
+            .matrix();
     const Eigen::VectorXcd values =
         Eigen::EigenSolver<Matrix>(nodal_layers(flow.interact(position, Layers::both)).single * friction,
                                    false)
