@@ -23,8 +23,7 @@ function(names_in variable folder pattern)
   set(${variable} ${names} PARENT_SCOPE)
 endfunction()
 
-# In results/, figures/ and tables/ a name belongs to one. These are the project's own; `capsule new` refuses them, too.
-set(TAKEN_NAMES benchmark branch ledger published runs steady)
+include(cmake/taken_names.cmake)
 
 # take_name(<name> <directory> <list> <item>...): adds the item to the list, and so on, if the name is free.
 macro(take_name name directory)

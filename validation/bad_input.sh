@@ -43,6 +43,22 @@ flow.viscosity_ratio = \"one\"" | bad '4:24: error: .* must be a number'
 for typed in 1.0d-3 1d-3 0,05 .05; do
   echo "$good" | sed "s/0.04/$typed/" | bad "3:25: error: '$typed' is not a number; write [01].[0-9e.-]*$"
 done
+# hint TEXT LINE: what is said of the line, behind its error
+hint() {
+  echo "$2" >hint.toml
+  expect 2 "^$1\$" "$capsule" show hint.toml
+  rm hint.toml
+}
+hint 'a word stands in quotes: "skalak"' 'membrane.law = skalak'
+hint 'a word stands in quotes: "neo-hookean"' 'membrane.law=neo-hookean # mine'
+hint 'a word stands in quotes: "skalak"' 'sweep."membrane.law" = ["neo-hookean", skalak]'
+hint 'quotes are straight: "skalak"' 'membrane.law = “skalak”'
+hint 'quotes are straight: "skalak"' "membrane.law = ‘skalak’"
+hint 'quotes are straight: "skalak"' 'membrane.law = "skalak”'
+hint "'=' stands between a key and its value: radius = 0.9" 'radius: 0.9'
+hint 'write true' 'output.resistance = True'
+hint "did you mean 'capsule.radius'[?]" 'radius = 0.9'
+hint "did you mean 'membrane.law'[?]" "flow.law = 'skalak'"
 printf 'flow.type = "extension"\nuntil.time = 1\n%s\noutput.resistance = true\n' "$good" | sed /radius/d |
   bad '5:21: error: output.resistance means nothing to flow.type = "extension"'
 echo "$good
@@ -133,6 +149,12 @@ printf '%s\nshear_viscosity = 200\n' "$physical" | sed '/^flow_rate/a membrane_s
 echo "$physical" | sed '/viscosity/d' | bad "2:15: error: missing key 'physical.viscosity'"
 echo "$physical" | sed 's/tube_radius/tube_radus/' | bad "2:1: error: unknown key 'physical.tube_radus'"
 rm -r bad
+# Line ends of other systems mean nothing.
+for end in '\r' '\r\n'; do
+  echo "$good" | while read -r line; do printf "%s$end" "$line"; done >ends.toml
+  expect 0 '^capillary_number = 0.04' "$capsule" show ends.toml
+  rm ends.toml
+done
 # What isn't ASCII is shown as it is, the caret below the character that is meant.
 echo 'title = "µ日" x' >shown.toml
 expect 2 '^    1 [|] title = "µ日" x$' "$capsule" show shown.toml
@@ -160,6 +182,10 @@ expect 2 '^bad/expected.csv:1:1: error: semicolons' "$capsule" check bad
 echo "$rows" | tr ';' ',' | iconv -t UTF-16 >bad/expected.csv
 expect 2 '^bad/expected.csv:1:1: error: the text is in UTF-16' "$capsule" check bad
 expect 2 '^save it as CSV in UTF-8 with commas' "$capsule" check bad
+for bytes in UTF-32 UTF-32LE UTF-32BE; do
+  echo "$good" | iconv -t $bytes >bad/case.toml
+  expect 2 '^bad/case.toml:1:1: error: the text (is|seems to be) in UTF-32; save it in UTF-8$' "$capsule" check bad
+done
 echo "$good" | iconv -t UTF-16 >bad/case.toml
 expect 2 '^bad/case.toml:1:1: error: the text is in UTF-16; save it in UTF-8$' "$capsule" check bad
 rm -r bad

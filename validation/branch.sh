@@ -107,6 +107,12 @@ ends 2 steady case.toml --out from --from bad
 grep -q "^bad/profiles.csv:3:1: error: 'nan' in the column 'velocity_r' is not finite" log || fail 'a nan is not named'
 ends 3 steady case.toml --out from --from march --set capsule.radius=0.95
 grep -q 'of another capsule: radius 0.8 there, 0.95 here' log || fail 'another radius is not named'
+ends 0 steady case.toml --out from --from march
+grep -q 'another capsule' log && fail 'a march is taken for that of another capsule'
+for other in capsule.radius=0.82 capsule.aspect_ratio=0.9; do # from where a steady state is found all the same
+  ends 0 steady case.toml --out from --from march --set $other
+  grep -q '^from: the profile to begin with is of another capsule: ' log || fail "nothing is said of $other"
+done
 
 # A case's march and its steady states have places of their own; what takes another's place says so.
 ends 0 run case.toml --set until.x_g=-3.5

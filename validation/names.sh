@@ -58,7 +58,8 @@ unusable() { # PATTERN NAME...: names that the pattern's rule refuses
   done
 }
 unusable 'a name is made of' 'small (copy)' 'a b' 'a;b' 'a[b' 'a"b' 'a${HOME}b' 'a$b' "it's" 'a&b' 'a\b' 'größe' -x .x
-unusable 'is taken' benchmark branch ledger published runs steady table1
+unusable 'is taken' benchmark branch ledger published runs steady table1 gallery.md style.gp
+unusable 'is taken' all clean test help install edit_cache figures tables capsule
 unusable 'at most 100' "$(printf '%0101d' 0)"
 "$capsule" new compared --like small >log 2>&1 && fail 'a case is called as a study is'
 

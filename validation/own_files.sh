@@ -61,6 +61,21 @@ cp chosen/profiles.csv profiles
 echo edited >>chosen/profiles.csv
 ends 0 run first --out chosen
 [ -e chosen/profiles.csv.altered ] && cmp profiles chosen/profiles.csv || fail 'an edit where --out says'
+# What says whose the files are: its own alteration is noticed, and nothing is taken for somebody else's.
+sed -i 's/"processor": "/&my /' chosen/run.json
+cp chosen/run.json edited
+ends 0 show first --out chosen
+grep -q '^# .* to be computed' log || fail 'results without provenance are taken for whole'
+ends 0 run first --out chosen
+grep -q '^chosen/run.json.altered: altered since it was computed' log || fail 'an altered run.json is not noticed'
+cmp edited chosen/run.json.altered || fail 'an edit is lost'
+rm chosen/*.altered
+numbers chosen | cmp - expected || fail 'what was computed is not back'
+cp chosen/run.json whole
+sed -i '/"files"/,$d' chosen/run.json
+ends 4 run first --out chosen
+grep -q "not of a run, or of one whose run.json was altered" log || fail 'nothing is said of a run.json that is cut off'
+mv whole chosen/run.json
 # A profile from which a steady state begins.
 ends 0 steady first --from chosen --out steady
 ends 0 steady first --from chosen --out steady

@@ -7,9 +7,17 @@
 
 namespace capsule {
 
+std::string in_words(const Json::exception &error) {
+  if (const auto *syntax = dynamic_cast<const Json::parse_error *>(&error))
+    return fmt::format("it is not valid JSON (byte {})", syntax->byte);
+  if (dynamic_cast<const Json::out_of_range *>(&error))
+    return "an entry is missing";
+  return "an entry is of another kind than it should be";
+}
+
 void fail_to_use(const std::filesystem::path &file, const Json::exception &error) {
   throw FileError(
-      fmt::format("cannot use '{}': {}; remove it or run with --fresh", file.string(), error.what()));
+      fmt::format("cannot use '{}': {}; remove it or run with --fresh", file.string(), in_words(error)));
 }
 
 std::optional<Json> read_json(const std::filesystem::path &file) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 namespace capsule {
 
@@ -16,6 +17,8 @@ inline Json finite_or_null(double value) {
 
 // The file's content, or nothing if there is no such file. Throws FileError.
 std::optional<Json> read_json(const std::filesystem::path &file);
+// What is wrong with a content: "it is not valid JSON (byte 17)", "an entry is missing".
+std::string in_words(const Json::exception &error);
 // Throws FileError: the file's content is not what it should be.
 [[noreturn]] void fail_to_use(const std::filesystem::path &file, const Json::exception &error);
 

@@ -57,9 +57,7 @@ std::string respelled_number(const std::string &text) {
   constexpr std::size_t longest = 40;
   constexpr std::string_view minus = "\u2212";
   static const std::regex number("([+-]?)(0*)([0-9]*)(?:([.,])([0-9]*))?(?:[eEdD]([+-]?[0-9]+))?");
-  std::string ascii = text;
-  if (ascii.starts_with(minus))
-    ascii.replace(0, minus.size(), "-");
+  const std::string ascii = text.starts_with(minus) ? fmt::format("-{}", text.substr(minus.size())) : text;
   std::smatch part;
   if (ascii.size() > longest || !std::regex_match(ascii, part, number))
     return "";
@@ -112,12 +110,23 @@ std::string encoded(std::u32string_view text) {
 }
 
 std::optional<EncodingError> encoding_error(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  const auto encoded_in = [](const char *encoding) {
+    return EncodingError{0, fmt::format("the text {}; save it in UTF-8", encoding)};
+  };
+  // By its byte order mark; "\xff\xfe" begins both.
+  if (bytes.starts_with("\xff\xfe\0\0"sv) || bytes.starts_with("\0\0\xfe\xff"sv))
+    return encoded_in("is in UTF-32");
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
-    return EncodingError{0, "the text is in UTF-16; save it in UTF-8"};
-  const auto is_zero = [&](std::size_t byte) { return byte < bytes.size() && bytes[byte] == '\0'; };
-  if (is_zero(0) != is_zero(1) && is_zero(0) == is_zero(2) &&
-      is_zero(1) == is_zero(3)) // a letter's other half
-    return EncodingError{0, "the text seems to be in UTF-16; save it in UTF-8"};
+    return encoded_in("is in UTF-16");
+  // By the zeros with which letters are filled up.
+  std::string zeros;
+  for (const char byte : bytes.substr(0, 4))
+    zeros += byte == '\0' ? '0' : 'x';
+  if (zeros == "x000" || zeros == "000x")
+    return encoded_in("seems to be in UTF-32");
+  if (zeros == "x0x0" || zeros == "0x0x")
+    return encoded_in("seems to be in UTF-16");
   if (const std::size_t zero = bytes.find('\0'); zero != std::string_view::npos)
     return EncodingError{zero, "not a text file: byte 0"};
   if (const std::size_t wrong = utf8::find_invalid(bytes); wrong != std::string_view::npos)
@@ -146,6 +155,16 @@ std::string printable(std::string_view text) {
   for (const char32_t c : decoded(text))
     shown += is_printable(c) ? encoded({&c, 1}) : fmt::format("\\u{:04x}", static_cast<std::uint32_t>(c));
   return shown;
+}
+
+std::string with_line_feeds(const std::string &text) {
+  std::string lines;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] != '\r')
+      lines += text[i];
+    else if (i + 1 == text.size() || text[i + 1] != '\n')
+      lines += '\n';
+  return lines;
 }
 
 std::string_view last_component(std::string_view key) {

@@ -11,11 +11,11 @@ namespace capsule {
 // The shortest decimal text that reads back as the same double: "0.2", "15", "1e-5", "nan", "-inf".
 std::string number_text(double value);
 
-// The number that the whole text is.
+// The number, if the whole text is one; nothing for one that is too large.
 std::optional<double> to_number(const std::string &text);
 
-// The number that a text in the notation of another program most likely means, as it is written here: "1e-3" for "1d-3",
-// "0.05" for "0,05" or ".05", "5.0" for "5.", "-5" with a typesetter's minus. Empty if it is none, or may be two: "1,000".
+// A number in the notation of another program, as it is written here: "1e-3" for "1d-3", "0.05" for "0,05" or ".05",
+// "5.0" for "5.", "-5" with a typesetter's minus. Empty if the text is no number, or may stand for two: "1,000".
 std::string respelled_number(const std::string &text);
 // "'0,05' in the column 'v_g' is not a number; write 0.05", where " in the column 'v_g'" says where it stands.
 std::string not_a_number(const std::string &text, const std::string &where = "");
@@ -44,6 +44,9 @@ std::optional<EncodingError> encoding_error(std::string_view bytes);
 bool is_printable(char32_t c);
 // With "\u001b" for a character that is not printable.
 std::string printable(std::string_view text);
+
+// Each line ends with a line feed: not with both characters, as on Windows, nor with a carriage return, as in old files.
+std::string with_line_feeds(const std::string &text);
 
 // What follows the last dot of a key: "capillary_number" of "flow.capillary_number".
 std::string_view last_component(std::string_view key);

@@ -310,7 +310,8 @@ void read_override(CaseReader &reader, const std::string &argument) {
   const bool bare =
       begin == std::string::npos || std::string_view("[{\"'").find(argument[begin]) == std::string_view::npos;
   if (bare && std::holds_alternative<LocatedError>(parsed))
-    parsed = parse_toml(source, argument.substr(0, equals + 1) + value_text(argument.substr(equals + 1)));
+    parsed =
+        parse_toml(source, argument.substr(0, equals + 1) + value_text(trimmed(argument.substr(equals + 1))));
   if (const auto *error = std::get_if<LocatedError>(&parsed)) {
     reader.text.complain(*error);
     reader.complete = false;

@@ -1,5 +1,6 @@
 #include "case/project.hpp"
 #include "base/text.hpp"
+#include "case/taken_names.hpp"
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -14,8 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array folders{"cases", "validation"};
-// Of the project itself, as cmake/names.cmake has them; so are table1, table2 ...
-constexpr std::array taken_names{"benchmark", "branch", "ledger", "published", "runs", "steady"};
 constexpr std::size_t longest_name = 100;
 
 bool is_digit(unsigned char c) {
@@ -44,7 +43,7 @@ std::string name_complaint(const fs::path &root, const std::string &name) {
   if (name.size() > longest_name)
     return fmt::format("a case's name has at most {} characters", longest_name);
   if (is_taken_name(name))
-    return fmt::format("results/, figures/ or tables/ have another '{}'", name);
+    return fmt::format("'{}' is taken: by a target of the build, or in results/, figures/ or tables/", name);
   std::error_code ignored;
   for (const char *folder : folders)
     if (fs::exists(root / folder / name, ignored))

@@ -14,8 +14,8 @@ struct ProjectCase {
 };
 
 // Why a new case cannot be called so, or nothing: a name is of the letters, digits and signs that make a file, a target
-// of CMake and a test, is not one of the project's own in results/, figures/ or tables/, and belongs to no other case or
-// study, nor to results that are stored with one.
+// of CMake and a test, is not one of the build's or the project's own (cmake/taken_names.cmake), and belongs to no other
+// case or study, nor to results that are stored with one.
 std::string name_complaint(const std::filesystem::path &root, const std::string &name);
 
 // Nothing if there is no such case.

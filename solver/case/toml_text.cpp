@@ -1,6 +1,7 @@
 #include "case/toml_text.hpp"
 #include "base/text.hpp"
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
@@ -74,6 +75,28 @@ std::optional<ForeignNumber> foreign_number(std::u32string_view line, std::size_
   return std::nullopt;
 }
 
+// How to write the value around a place where toml++ cannot go on: typesetter's quotes, or a word without quotes; empty if
+// it is neither.
+std::string quoting_hint(std::u32string_view line, std::size_t at) {
+  constexpr std::u32string_view curly = U"\u201c\u201d\u201e\u2018\u2019\u00ab\u00bb";
+  if (line.find_first_of(curly) != std::u32string_view::npos)
+    return "quotes are straight: \"skalak\"";
+  const Word word = word_around(line, std::min(at, line.size()), U" \t=[]{},#");
+  const std::string typed = encoded(line.substr(word.begin, word.end - word.begin));
+  const std::size_t before = line.substr(0, word.begin).find_last_not_of(U" \t");
+  const bool is_value =
+      before != std::u32string_view::npos && U"=[,"sv.find(line[before]) != std::u32string_view::npos;
+  const auto is_of_words = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
+  if (!is_value || typed.empty() || std::isalpha(static_cast<unsigned char>(typed[0])) == 0 ||
+      !std::ranges::all_of(typed, is_of_words))
+    return "";
+  for (const char *truth : {"true", "false"})
+    if (std::ranges::equal(typed, std::string_view(truth), {},
+                           [](unsigned char c) { return std::tolower(c); }))
+      return fmt::format("write {}", truth);
+  return fmt::format("a word stands in quotes: \"{}\"", typed);
+}
+
 // What toml++ says of a text whose characters beyond ASCII it was given as question marks.
 LocatedError syntax_error(std::size_t source, const toml::parse_error &error, const std::u32string &text) {
   LocatedError told{place_of(source, error.source().begin), std::string(error.description()), ""};
@@ -84,8 +107,11 @@ LocatedError syntax_error(std::size_t source, const toml::parse_error &error, co
   const std::size_t at = told.place.column - 1;
   if (const auto number = foreign_number(line, at))
     return {{source, told.place.line, number->begin + 1}, not_a_number(number->typed), ""};
+  told.hint = quoting_hint(line, at);
   if (at >= line.size())
     return told;
+  if (line[at] == U':' && told.message.find("expected '='") != std::string::npos)
+    told.hint = "'=' stands between a key and its value: radius = 0.9";
   if (const std::size_t mark = told.message.rfind("'?'"); mark != std::string::npos)
     told.message.replace(mark + 1, 1, encoded(line.substr(at, 1)));
   const std::u32string_view before = line.substr(0, line.find_last_not_of(U' ', at == 0 ? 0 : at - 1) + 1);
@@ -122,7 +148,7 @@ std::variant<std::string, Complaint> read_text(const fs::path &file) {
     text << stream.rdbuf();
   if (!stream.is_open() || stream.bad())
     return Complaint{std::string("cannot be read: ") + std::strerror(errno), ""};
-  return text.str();
+  return with_line_feeds(text.str());
 }
 
 std::variant<toml::table, LocatedError> parse_toml(std::size_t source, const std::string &text) {

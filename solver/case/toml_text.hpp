@@ -10,7 +10,7 @@
 
 namespace capsule {
 
-// The text of a regular file, or why it cannot be had.
+// The text of a regular file, each line ended by a line feed, or why it cannot be had.
 std::variant<std::string, Complaint> read_text(const std::filesystem::path &file);
 
 // The table that a text is, or what is wrong with it. What toml++ 3.3 does is not defined where it asks whether a

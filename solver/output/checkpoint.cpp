@@ -32,7 +32,7 @@ double exact(const Json &json) {
     return json.get<double>();
   if (const auto value = to_number(json.get<std::string>()))
     return *value;
-  throw Damage{"a number is none"};
+  throw Damage{"an entry is not a number"};
 }
 
 Json exact(const Vector &values) {
@@ -198,7 +198,7 @@ FoundCheckpoint read_checkpoint(const fs::path &directory, const std::string &id
       return {.damage = "a position is not a number"};
     return {.run = saved};
   } catch (const Json::exception &error) {
-    return {.damage = error.what()};
+    return {.damage = in_words(error)};
   } catch (const Damage &damage) {
     return {.damage = damage.what};
   }

@@ -1,4 +1,5 @@
 #include "output/provenance.hpp"
+#include "base/atomic_file.hpp"
 #include "base/build_info.hpp"
 #include "base/digest.hpp"
 #include "base/json_file.hpp"
@@ -11,6 +12,8 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <gsl/gsl_version.h>
+#include <regex>
+#include <sstream>
 #include <sundials/sundials_config.h>
 
 namespace capsule {
@@ -30,15 +33,27 @@ std::string processor_name() {
   return "unknown";
 }
 
-// An entry of run.json; empty if there is none.
-std::string entry_of(const fs::path &directory, const char *entry) {
-  const fs::path file = directory / "run.json";
-  const auto json = read_json(file);
-  try {
-    return json ? json->value(entry, "") : "";
-  } catch (const Json::exception &error) {
-    fail_to_use(file, error);
-  }
+constexpr const char *digest_entry = "digest"; // of all other entries
+
+bool is_as_written(Json json) {
+  if (!json.contains(digest_entry)) // by earlier versions
+    return true;
+  const Json written = json[digest_entry];
+  json.erase(digest_entry);
+  return written == digest(json.dump(2));
+}
+
+// The files that an altered run.json still names: a line for each, "series.csv": "0123456789abcdef".
+std::map<std::string, std::string> digests_in(const std::string &text) {
+  static const std::regex entry("^ *\"([A-Za-z0-9_]+\\.[a-z]+)\": *\"([0-9a-f]{16})\",?$");
+  constexpr std::size_t longest = 200;
+  std::map<std::string, std::string> digests;
+  std::istringstream stream(text);
+  std::smatch found;
+  for (std::string line; std::getline(stream, line);)
+    if (line.size() < longest && std::regex_match(line, found, entry))
+      digests[found[1]] = found[2];
+  return digests;
 }
 
 } // namespace
@@ -64,27 +79,28 @@ std::string provenance_text(const Case &physics, const Effort &effort, const Tas
   json["finished"] = now_utc();
   for (const auto &[name, content] : files)
     json["files"][name] = digest(content);
+  json[digest_entry] = digest(json.dump(2));
   return json.dump(2) + "\n";
 }
 
-std::string identity_of(const fs::path &directory) {
-  return entry_of(directory, "identity");
-}
-
-std::string task_of(const fs::path &directory) {
-  const std::string task = entry_of(directory, "task");
-  return task.empty() ? Task{}.name : task;
-}
-
 Written written_in(const fs::path &directory) {
-  try {
-    const auto json = read_json(directory / "run.json");
-    if (!json || !json->contains("identity"))
-      return {};
-    return {true, json->value("files", std::map<std::string, std::string>{})};
-  } catch (const std::exception &) { // it cannot be read, or is damaged
+  const fs::path file = directory / "run.json";
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored))
     return {};
+  const std::string text = read_file(file);
+  try {
+    const Json json = Json::parse(text);
+    if (json.contains("identity") && is_as_written(json))
+      return {.by_a_run = true,
+              .identity = json.at("identity"),
+              .task = json.value("task", Task{}.name),
+              .digests = json.value("files", std::map<std::string, std::string>{})};
+  } catch (const Json::exception &) { // it is damaged, or somebody else's
   }
+  if (!text.empty() && text.find("\"identity\":") == std::string::npos)
+    return {};
+  return {.by_a_run = true, .altered = true, .digests = digests_in(text)};
 }
 
 } // namespace capsule

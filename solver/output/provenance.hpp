@@ -1,5 +1,6 @@
 #pragma once
-// run.json: which program made a run's results of which input, when and where, and which files they are.
+// run.json: which program made a run's results of which input, when and where, and which files they are; with a digest of
+// each file and of itself, by which an alteration is noticed.
 #include "case/task.hpp"
 #include <filesystem>
 #include <map>
@@ -18,17 +19,16 @@ using FileContents = std::vector<std::pair<std::string, std::string>>;
 std::string provenance_text(const Case &physics, const Effort &effort, const Task &task,
                             const FileContents &files);
 
-// Of the results in a directory. Throw FileError.
-std::string identity_of(const std::filesystem::path &directory); // empty if there is no run.json
-// The task's name; without a run.json, and by earlier versions, it was `run`.
-std::string task_of(const std::filesystem::path &directory);
-
-// What run.json says of a run's files.
+// What the run.json of a directory says of the run whose files are there.
 struct Written {
-  bool by_a_run = false;                      // run.json is of this program, and not damaged
-  std::map<std::string, std::string> digests; // name -> digest of the content; empty by earlier versions
+  bool by_a_run = false; // there is one, and not somebody else's file of that name
+  bool altered =
+      false; // since it was written: then only `digests` is known, as far as its text still has them
+  std::string identity = {};
+  std::string task = Task{}.name;                  // its name; earlier versions did not write it
+  std::map<std::string, std::string> digests = {}; // name -> digest of the content; empty by earlier versions
 };
-// Throws nothing.
+// Throws FileError if run.json cannot be read.
 Written written_in(const std::filesystem::path &directory);
 
 } // namespace capsule

@@ -23,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char *summary_name = "summary.json", *provenance_name = "run.json";
+
 bool is_surface(const std::string &name) {
   constexpr std::string_view begin = "membrane_", end = ".vtp";
   return name.size() > begin.size() + end.size() && name.starts_with(begin) && name.ends_with(end) &&
@@ -31,8 +33,8 @@ bool is_surface(const std::string &name) {
 
 // Names that a run may give to its files.
 bool is_result(const fs::path &file) {
-  constexpr std::array names{"summary.json", "series.csv",    "series_physical.csv",
-                             "profiles.csv", "resolved.toml", "run.json",
+  constexpr std::array names{summary_name,   "series.csv",    "series_physical.csv",
+                             "profiles.csv", "resolved.toml", provenance_name,
                              "membrane.pvd", "branch.csv",    "wall.vtp"};
   const std::string name = file.filename().string();
   return std::ranges::find(names, name) != names.end() || is_surface(name);
@@ -45,7 +47,8 @@ std::vector<fs::path> files_of_run(const fs::path &directory) {
     return {};
   return files_in(directory, [&](const fs::path &file) {
     const std::string name = file.filename().string();
-    return written.digests.empty() ? is_result(file) : name == "run.json" || written.digests.contains(name);
+    const bool of_earlier_version = written.digests.empty() && !written.altered;
+    return of_earlier_version ? is_result(file) : name == provenance_name || written.digests.contains(name);
   });
 }
 
@@ -100,7 +103,7 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
   files.emplace_back("summary.json", summary_text(physics, outcome, effort));
   remove_results(directory);
   require_free(directory);
-  write_atomically(directory / "run.json", provenance_text(physics, effort, task, files));
+  write_atomically(directory / provenance_name, provenance_text(physics, effort, task, files));
   for (const auto &[name, content] : files)
     write_atomically(directory / name, content);
   remove_checkpoint(directory);
@@ -108,13 +111,14 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
 
 bool is_finished(const fs::path &directory, const std::string &identity) {
   std::error_code ignored;
-  return fs::exists(directory / "summary.json", ignored) && identity_of(directory) == identity;
+  return fs::exists(directory / summary_name, ignored) && written_in(directory).identity == identity;
 }
 
 bool is_finished_input(const fs::path &directory, const Case &physics, const Task &task) {
   std::error_code ignored;
-  if (!fs::exists(directory / "summary.json", ignored) || !fs::exists(directory / "resolved.toml", ignored) ||
-      task_of(directory) != task.name)
+  if (!fs::exists(directory / summary_name, ignored) || !fs::exists(directory / "resolved.toml", ignored))
+    return false;
+  if (const Written written = written_in(directory); written.altered || written.task != task.name)
     return false;
   try {
     return same_input(input_of(directory, task), physics, task);
@@ -126,12 +130,15 @@ bool is_finished_input(const fs::path &directory, const Case &physics, const Tas
 std::string other_results(const fs::path &directory, const Case &physics, const Task &task) {
   std::error_code ignored;
   try {
-    if (!fs::exists(directory / "summary.json", ignored)) {
+    if (!fs::exists(directory / summary_name, ignored)) {
       const FoundCheckpoint found = read_checkpoint(directory, run_identity(physics, task));
       return found.of_another_run ? "an interrupted run" : "";
     }
-    if (const std::string made_by = task_of(directory); made_by != task.name)
-      return fmt::format("the results of `capsule {}`", made_by);
+    const Written written = written_in(directory);
+    if (written.altered)
+      return "results whose run.json was altered";
+    if (written.task != task.name)
+      return fmt::format("the results of `capsule {}`", written.task);
     const Case other = input_of(directory, task);
     return same_input(other, physics, task) ? "" : fmt::format("a run with {}", what_differs(other, physics));
   } catch (const std::exception &) { // damaged files, or no longer a valid input
@@ -153,18 +160,22 @@ void require_free(const fs::path &directory) {
   if (taken.empty())
     return;
   std::ranges::sort(taken);
-  throw FileError(fmt::format(
-      "cannot write into '{}': {} {} not of a run; move {} away, or give another --out", directory.string(),
-      fmt::join(taken, ", "), taken.size() == 1 ? "is" : "are", taken.size() == 1 ? "it" : "them"));
+  const bool one = taken.size() == 1;
+  throw FileError(
+      fmt::format("cannot write into '{}': {} {} not of a run{}; move {} away, or give another --out",
+                  directory.string(), fmt::join(taken, ", "), one ? "is" : "are",
+                  written_in(directory).altered
+                      ? fmt::format(", or of one whose run.json was altered and does not name {} any more",
+                                    one ? "it" : "them")
+                      : "",
+                  one ? "it" : "them"));
 }
 
 std::vector<fs::path> set_aside_altered(const fs::path &directory) {
+  const Written written = written_in(directory);
   std::vector<fs::path> altered;
-  for (const auto &[name, written] : written_in(directory).digests) {
-    const fs::path file = directory / name;
+  const auto set_aside = [&](const fs::path &file) {
     std::error_code ec;
-    if (!fs::exists(file, ec) || digest(read_file(file)) == written)
-      continue;
     fs::path aside = file;
     for (int k = 1; fs::exists(fs::symlink_status(aside, ec)); ++k)
       aside = fmt::format("{}.altered{}", file.string(), k == 1 ? "" : fmt::format("-{}", k));
@@ -172,6 +183,19 @@ std::vector<fs::path> set_aside_altered(const fs::path &directory) {
     if (ec)
       fail_at("cannot rename", file, ec.value());
     altered.push_back(aside);
+  };
+  for (const auto &[name, as_written] : written.digests) {
+    const fs::path file = directory / name;
+    std::error_code ignored;
+    if (fs::exists(file, ignored) && digest(read_file(file)) != as_written)
+      set_aside(file);
+  }
+  if (written.altered) {
+    std::vector<fs::path> unaltered = files_of_run(directory);
+    set_ends(unaltered, summary_name, provenance_name);
+    unaltered.pop_back();
+    std::ranges::for_each(unaltered, remove_file);
+    set_aside(directory / provenance_name); // last: it says whose the others are
   }
   return altered;
 }
@@ -186,20 +210,20 @@ bool is_complete(const fs::path &directory) {
 void remove_results(const fs::path &directory) {
   std::vector<fs::path> files = files_of_run(directory);
   std::ranges::move(files_in(directory, is_left_over), std::back_inserter(files));
-  set_ends(files, "summary.json", "run.json");
+  set_ends(files, summary_name, provenance_name);
   for (const fs::path &file : files)
     remove_file(file);
 }
 
 void share_results(const fs::path &from, const fs::path &to) {
   std::error_code ignored;
-  if (fs::exists(to / "summary.json", ignored) && fs::exists(to / "run.json", ignored) && is_complete(to) &&
-      read_file(from / "run.json") == read_file(to / "run.json"))
+  if (fs::exists(to / summary_name, ignored) && fs::exists(to / provenance_name, ignored) &&
+      is_complete(to) && read_file(from / provenance_name) == read_file(to / provenance_name))
     return;
   make_directories(to);
   remove_results(to);
   std::vector<fs::path> files = files_of_run(from);
-  set_ends(files, "run.json", "summary.json");
+  set_ends(files, provenance_name, summary_name);
   for (const fs::path &file : files)
     copy_atomically(file, to / file.filename());
 }

@@ -38,7 +38,7 @@ std::string other_results(const std::filesystem::path &directory, const Case &ph
 // written is neither overwritten nor removed.
 void require_free(const std::filesystem::path &directory);
 // Gives files of a run that were altered since they were written another name, "series.csv.altered", and returns their
-// paths.
+// paths. Where run.json itself was altered, the run's other files go: they are to be computed again with it.
 std::vector<std::filesystem::path> set_aside_altered(const std::filesystem::path &directory);
 // Whether all files are there that a run has left; of those of earlier versions it is not known.
 bool is_complete(const std::filesystem::path &directory);

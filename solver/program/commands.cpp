@@ -119,9 +119,9 @@ std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arg
   const RunOptions options = run_options(arguments, input, computation.task);
   std::vector<RunResult> results = compute(input, options, computation.method);
   for (const RunResult &result : results)
-    if (has_failed(result))
-      fmt::print(stderr, "{}: {}: {}\n", result.directory.string(), result.summary->failure,
-                 result.summary->message);
+    if (result.summary && !result.summary->message.empty())
+      fmt::print(stderr, "{}: {}{}\n", result.directory.string(),
+                 has_failed(result) ? result.summary->failure + ": " : "", result.summary->message);
   if (const auto unfinished = std::ranges::count_if(results, is_interrupted); unfinished > 0)
     fmt::print(stderr, "interrupted: {} of {} to finish; the same command {}\n", unfinished,
                counted(results.size(), "run"),

@@ -1,6 +1,7 @@
 #include "steady/from_profile.hpp"
 #include "base/failure.hpp"
 #include "geometry/quadrature.hpp"
+#include "geometry/sampling.hpp"
 #include "steady/newton.hpp"
 #include "steady/relaxation.hpp"
 #include <algorithm>
@@ -40,27 +41,6 @@ Vector fine_angles(const Membrane &membrane) {
   return Vector::LinSpaced(64 * membrane.basis.size() + 1, 0, std::numbers::pi);
 }
 
-// Where no way has led from a profile to rest: whether that is because it is of another capsule. Its volume and its
-// meridian before the flow tell, whatever its shape.
-void require_same_capsule(const Profile &profile, const Membrane &membrane, double radius) {
-  constexpr double same = 0.01;
-  const Eigen::Index rest = profile.S.size() - 1;
-  const Eigen::ArrayXd slices =
-      (profile.x.tail(rest) - profile.x.head(rest)).array() *
-      (profile.r.tail(rest).array().square() + profile.r.head(rest).array().square()) / 2;
-  const double of_profile = std::cbrt(0.75 * slices.sum()); // from pi r^2 dx = 4/3 pi R^3
-  const double meridian = initial_arc(membrane, fine_angles(membrane)).tail(1).value();
-  const double meridian_of_profile = profile.S[rest] - profile.S[0];
-  std::string differ;
-  if (!(std::abs(of_profile / radius - 1) < same))
-    differ = fmt::format("radius {:.3g} there, {:.3g} here", of_profile, radius);
-  else if (!(std::abs(meridian_of_profile / meridian - 1) < same))
-    differ = fmt::format("a meridian of {:.3g} there, {:.3g} here", meridian_of_profile, meridian);
-  if (!differ.empty())
-    throw NumericsFailure("unresolved", "the profile to begin with is of another capsule: " + differ,
-                          "begin with a profile of this one, or leave --from away");
-}
-
 // A profile's shape on the nodes, point by point of the undeformed membrane.
 Vector unknowns_of(const Profile &profile, const Membrane &membrane) {
   const Eigen::Index n = membrane.basis.size();
@@ -76,10 +56,33 @@ Vector unknowns_of(const Profile &profile, const Membrane &membrane) {
   return unknowns;
 }
 
+// As many nodes as the profile may have been computed with.
+int nodes_of(const Profile &profile) {
+  return std::clamp(static_cast<int>(profile.S.size() / 4), first_nodes, most_nodes);
+}
+
 } // namespace
 
+std::string other_capsule(const Case &input, const Profile &profile) {
+  constexpr double same_radius = 0.01;   // a march of a loose accuracy may lose as much volume
+  constexpr double same_meridian = 1e-4; // before the flow, which no march changes
+  const MeridianBasis basis = spectral_basis(nodes_of(profile));
+  const Membrane membrane = make_membrane(input.capsule, input.membrane, basis, basis.nodes, basis.weights);
+  const Trace shape = trace(membrane.at_nodes, unknowns_of(profile, membrane).head(2 * basis.size()));
+  const double volume_by_pi = (basis.weights.array() * shape.r.array().square() * shape.x_zeta.array()).sum();
+  const double radius = std::cbrt(0.75 * volume_by_pi); // pi r^2 dx = 4/3 pi R^3
+  const double meridian = initial_arc(membrane, fine_angles(membrane)).tail(1).value();
+  const double meridian_of_profile = profile.S[profile.S.size() - 1] - profile.S[0];
+  std::string differ;
+  if (!(std::abs(radius / input.capsule.radius - 1) < same_radius))
+    differ = fmt::format("radius {:.3g} there, {:.3g} here", radius, input.capsule.radius);
+  else if (!(std::abs(meridian_of_profile / meridian - 1) < same_meridian))
+    differ = fmt::format("a meridian of {:.6g} there, {:.6g} here", meridian_of_profile, meridian);
+  return differ.empty() ? "" : "the profile to begin with is of another capsule: " + differ;
+}
+
 SteadyState from_profile(const Case &input, const Profile &profile, const Control &control) {
-  const int nodes = std::clamp(static_cast<int>(profile.S.size() / 4), first_nodes, most_nodes);
+  const int nodes = nodes_of(profile);
   const auto on_nodes_of = [&](std::shared_ptr<SteadySystem> system) -> SteadyState {
     const Vector unknowns = unknowns_of(profile, system->membrane());
     return {std::move(system), unknowns};
@@ -92,7 +95,8 @@ SteadyState from_profile(const Case &input, const Profile &profile, const Contro
     try {
       state.unknowns = solve_steady(*state.system, relaxed(*state.system, state.unknowns, control));
     } catch (const NumericsFailure &) {
-      require_same_capsule(profile, state.system->membrane(), input.capsule.radius);
+      if (const std::string other = other_capsule(input, profile); !other.empty())
+        throw NumericsFailure("unresolved", other, "begin with a profile of this one, or leave --from away");
       throw;
     }
   }

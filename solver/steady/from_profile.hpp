@@ -2,6 +2,7 @@
 // A case's steady state from a profile: Newton's method from its shape, or from what that shape relaxes to.
 #include "observe/outcome.hpp"
 #include "steady/mesh_change.hpp"
+#include <string>
 
 namespace capsule {
 
@@ -9,5 +10,10 @@ namespace capsule {
 // On as many nodes as the profile may have been computed with. Throws InputError for less than four points, Interrupted,
 // and NumericsFailure("unresolved") if nothing comes to rest, with the sizes of both if the profile is of another capsule.
 SteadyState from_profile(const Case &input, const Profile &profile, const Control &control);
+
+// "the profile to begin with is of another capsule: radius 0.8 there, 0.9 here"; empty if it is of this one. The volume and
+// the length of the meridian before the flow tell. A state is found from it all the same, but not always the one that is
+// found from nothing. Throws InputError for less than four points.
+std::string other_capsule(const Case &input, const Profile &profile);
 
 } // namespace capsule

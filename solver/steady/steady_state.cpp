@@ -17,9 +17,11 @@ Outcome steady(const Case &input, const std::optional<Profile> &from, const Cont
     const RefinedState refined = refine(input, find_steady(input, from, control), control);
     const SteadyRecord record = record_steady(refined.state, input.flow.viscosity_ratio);
     outcome.status = Status::steady;
-    outcome.message = refined.warning;
-    if (record.further.at("growth_rate") > 0)
-      outcome.message += fmt::format("{}this steady state is unstable", outcome.message.empty() ? "" : "; ");
+    const bool stable = record.further.at("growth_rate") <= 0;
+    for (const std::string &remark : {from ? other_capsule(input, *from) : "", refined.warning,
+                                      std::string(stable ? "" : "this steady state is unstable")})
+      if (!remark.empty())
+        outcome.message += (outcome.message.empty() ? "" : "; ") + remark;
     outcome.error_estimate = refined.error_estimate;
     outcome.further = record.further;
     outcome.membrane_nodes = static_cast<int>(refined.state.system->nodes());

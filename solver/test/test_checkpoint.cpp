@@ -80,8 +80,10 @@ BOOST_AUTO_TEST_CASE(damaged_checkpoint_is_said_to_be_one) {
     directory.write("checkpoint.json", damaged);
     BOOST_TEST(!read_checkpoint(directory.path, "abc").damage.empty());
   }
-  directory.write("checkpoint.json", text.substr(0, text.size() / 2));
-  BOOST_TEST(!read_checkpoint(directory.path, "abc").damage.empty());
+  directory.write("checkpoint.json", text.substr(0, 100));
+  BOOST_TEST(read_checkpoint(directory.path, "abc").damage == "it is not valid JSON (byte 101)");
+  directory.write("checkpoint.json", "{\"identity\":\"abc\"}");
+  BOOST_TEST(read_checkpoint(directory.path, "abc").damage == "an entry is missing");
   BOOST_TEST(!has_foreign_checkpoint(directory.path));
   directory.write("checkpoint.json", "mine");
   BOOST_TEST(has_foreign_checkpoint(directory.path));

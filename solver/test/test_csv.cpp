@@ -98,6 +98,11 @@ BOOST_AUTO_TEST_CASE(what_is_refused) {
   for (const auto &half : {std::string("i\0d\0\n\0", 6), std::string("\0i\0d\0\n", 6)})
     BOOST_TEST(refusal(half) ==
                "t.csv:1:1: error: the text seems to be in UTF-16; save it in UTF-8\n" + advice);
+  for (const auto &quarter : {std::string("i\0\0\0d\0\0\0", 8), std::string("\0\0\0i\0\0\0d", 8)})
+    BOOST_TEST(refusal(quarter) ==
+               "t.csv:1:1: error: the text seems to be in UTF-32; save it in UTF-8\n" + advice);
+  for (const auto &marked : {std::string("\xff\xfe\0\0i\0\0\0", 8), std::string("\0\0\xfe\xff\0\0\0i", 8)})
+    BOOST_TEST(refusal(marked) == "t.csv:1:1: error: the text is in UTF-32; save it in UTF-8\n" + advice);
   BOOST_TEST(refusal(std::string("id\n\0", 4)) == "t.csv:2:1: error: not a text file: byte 0\n" + advice);
   for (const char *text :
        {"id;value\na;1\n", "\"id\";\"value\"\n\"a\";\"1,5\"\n", "id\tvalue\n", "sep=;\nid;value\n"})

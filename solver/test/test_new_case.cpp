@@ -57,9 +57,11 @@ BOOST_AUTO_TEST_CASE(refused) {
     check_refused(project, name, "cases/old", "a case's name is made of");
   check_refused(project, std::string(101, 'x'), "cases/old", "at most 100 characters");
   for (const char *name :
-       {"benchmark", "branch", "ledger", "published", "runs", "steady", "table1", "table12"})
-    check_refused(project, name, "cases/old",
-                  fmt::format("results/, figures/ or tables/ have another '{}'", name));
+       {"benchmark", "branch", "ledger", "published", "runs", "steady", "table1", "table12", "gallery.md",
+        "style.gp", "all", "clean", "test", "help", "install", "figures"})
+    check_refused(
+        project, name, "cases/old",
+        fmt::format("'{}' is taken: by a target of the build, or in results/, figures/ or tables/", name));
   // A study, and results that are stored with a case.
   project.write("validation/study/study.cpp", "");
   project.write("cases/old/mesh.toml", sphere);

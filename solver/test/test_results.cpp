@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 using namespace capsule;
 namespace fs = std::filesystem;
@@ -45,13 +46,47 @@ std::vector<std::string> lines_of(const fs::path &file) {
 
 } // namespace
 
-BOOST_AUTO_TEST_CASE(damaged_provenance_is_named) {
+// Each of its bytes counts; what it still says of the other files is known, and nothing is taken for somebody else's.
+BOOST_AUTO_TEST_CASE(altered_provenance_is_noticed) {
   const TemporaryDirectory directory;
-  directory.write("summary.json", "{}");
-  for (const char *damaged : {"[]", "3", "{\"identity\": 3}"}) {
-    const auto file = directory.write("run.json", damaged);
-    BOOST_TEST(failure_of([&] { is_finished(directory.path, "abc"); }).find(file.string()) !=
+  const Case physics = pore_case();
+  const auto place = directory.path / "run", provenance = place / "run.json";
+  make_directories(place);
+  write_results(place, physics, outcome_with(random_checkpoint()), {});
+  const std::string text = content_of(provenance);
+  for (std::size_t k = text.find("\"task\""); k < text.find("\"files\""); k += 7) {
+    std::string altered = text;
+    altered[k] = altered[k] == 'x' ? 'y' : 'x';
+    directory.write("run/run.json", altered);
+    BOOST_TEST(!is_finished(place, run_identity(physics)));
+    BOOST_TEST(!is_finished_input(place, physics));
+    BOOST_TEST(other_results(place, physics) == "results whose run.json was altered");
+    BOOST_CHECK_NO_THROW(require_free(place));
+  }
+  const auto left = [&] {
+    std::set<std::string> names;
+    for (const auto &entry : fs::directory_iterator(place))
+      names.insert(entry.path().filename());
+    return names;
+  };
+  directory.write("run/notes.txt", "mine");
+  directory.write("run/series.csv", "altered, too");
+  BOOST_TEST(set_aside_altered(place).size() == 2u);
+  BOOST_TEST((left() == std::set<std::string>{"notes.txt", "run.json.altered", "series.csv.altered"}));
+
+  // Cut off before it names any file, it vouches for none.
+  write_results(place, physics, outcome_with(random_checkpoint()), {});
+  for (const std::size_t length : {std::size_t{0}, text.find("\"files\"")}) {
+    directory.write("run/run.json", text.substr(0, length));
+    BOOST_TEST(failure_of([&] { require_free(place); }).find("whose run.json was altered") !=
                std::string::npos);
+  }
+  // Somebody else's is no run's.
+  for (const char *foreign : {"[]", "3", "{\"name\": 3}", "my notes"}) {
+    directory.write("run/run.json", foreign);
+    BOOST_TEST(!is_finished(place, run_identity(physics)));
+    BOOST_TEST(set_aside_altered(place).empty());
+    BOOST_TEST(failure_of([&] { require_free(place); }).find("run.json, series.csv") != std::string::npos);
   }
 }
 
