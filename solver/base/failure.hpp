@@ -15,9 +15,16 @@ struct FileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The computation cannot go on (exit code 3). `kind` is one word for scripts: "touching", "folded", "wrinkled",
-// "unresolved", "volume", "step", "not-a-number", "self-contact", "exit", "fold"; or "unbounded", which ends a run but is
-// not a failure of it. `advice` says what to try.
+// Why a computation cannot go on, one word each, which scripts read too; paper-notes/files.md says what they mean. `burst`
+// and `unbounded` end a run, but are no failures of it.
+namespace failure_kind {
+inline constexpr const char *touching = "touching", *self_contact = "self-contact", *folded = "folded",
+                            *wrinkled = "wrinkled", *exit = "exit", *volume = "volume", *step = "step",
+                            *unresolved = "unresolved", *not_a_number = "not-a-number", *fold = "fold",
+                            *burst = "burst", *unbounded = "unbounded";
+}
+
+// The computation cannot go on (exit code 3). `kind` is one of these words, `advice` says what to try.
 struct NumericsFailure : std::runtime_error {
   std::string kind;
   std::string advice;

@@ -3,6 +3,7 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "compare/run_values.hpp"
+#include "observe/outcome.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -40,7 +41,6 @@ constexpr std::array own_columns{Column{"id", &Expectation::id},
                                  Column{"allowed", &Expectation::allowed},
                                  Column{"reason", &Expectation::reason}};
 constexpr std::array kinds{"number", "bound", "ratio", "order", "behaviour", "picture"};
-constexpr std::array statuses{"reached", "steady", "unbounded", "burst", "failed"};
 constexpr std::array verdicts{"agrees", "differs", "not decidable"};
 
 // Reads the published value and the allowed distance. Returns what is wrong with them, or nothing.
@@ -48,11 +48,11 @@ std::string read_numbers(Expectation &row) {
   using Form = Expectation::Form;
   if (row.quantity == "status") {
     row.form = Form::status;
-    const bool known =
-        std::ranges::find(statuses, row.published) != statuses.end() || row.published.starts_with("failed:");
+    const bool known = std::ranges::find(status_words, row.published) != status_words.end() ||
+                       row.published.starts_with("failed:");
     return known ? ""
                  : fmt::format("the status '{}' is none of '{}', 'failed:...'", row.published,
-                               fmt::join(statuses, "', '"));
+                               fmt::join(status_words, "', '"));
   }
   if (row.recorded == Verdict::not_decidable)
     return "";

@@ -345,7 +345,7 @@ FitResult fit_contours(const Case &input, std::span<const Contour> contours, Fit
                            [](const Candidate &c) { return std::pair(!c.failure.empty(), c.aic); });
   const Candidate &best = result.candidates.front();
   if (!best.failure.empty())
-    throw NumericsFailure(failure ? failure->kind : "unresolved", "no fit: " + best.failure,
+    throw NumericsFailure(failure ? failure->kind : failure_kind::unresolved, "no fit: " + best.failure,
                           "try other laws or bounds, or a smaller set of unknowns");
   for (Candidate &candidate : result.candidates)
     if (candidate.failure.empty())

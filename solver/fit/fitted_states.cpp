@@ -153,7 +153,7 @@ Residuals FittedStates::evaluate(const Vector &parameters) {
     try {
       unknowns = solve_steady(system, expected);
       if ((unknowns - expected).head(2 * n).cwiseAbs().maxCoeff() > farthest)
-        throw NumericsFailure("unresolved", "no steady state near the one before", "");
+        throw NumericsFailure(failure_kind::unresolved, "no steady state near the one before", "");
       slopes = sensitivities(system, unknowns, keys_);
     } catch (...) {
       system.set_parameters(before);

@@ -177,7 +177,7 @@ FlowState Flow::solve(const Interaction &interaction, const Vector &f, Recycled 
     state.velocity = membrane_velocity(interaction, state.velocity, at_wall, recycled);
   }
   if (!state.velocity.allFinite())
-    throw NumericsFailure("not-a-number", "the membrane's velocity is not a number",
+    throw NumericsFailure(failure_kind::not_a_number, "the membrane's velocity is not a number",
                           "try a finer mesh.membrane");
   state.pressure_drop = wall_.pressure_drop(at_wall);
   state.flow_rate = 1 - state.pressure_drop / drive_.resistance;

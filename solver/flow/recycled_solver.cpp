@@ -4,7 +4,7 @@ namespace capsule {
 namespace {
 
 NumericsFailure unresolved(const char *what) {
-  return {"unresolved", what, "try a finer mesh.membrane"};
+  return {failure_kind::unresolved, what, "try a finer mesh.membrane"};
 }
 
 } // namespace

@@ -49,9 +49,9 @@ public:
       }
       outcome.status = input_.time.scheme == Scheme::bdf ? run_bdf() : run_explicit();
     } catch (const NumericsFailure &failure) {
-      outcome.status = failure.kind == "unbounded" ? Status::unbounded
-                       : failure.kind == "burst"   ? Status::burst
-                                                   : Status::failed;
+      outcome.status = failure.kind == failure_kind::unbounded ? Status::unbounded
+                       : failure.kind == failure_kind::burst   ? Status::burst
+                                                               : Status::failed;
       const SeriesRow last = record_.series.empty() ? SeriesRow{} : record_.series.back();
       outcome.failure = failure.kind;
       outcome.message = fmt::format("{} (after t = {:.6g}, x_g = {:.6g}); {}", failure.what(), last.time,
@@ -152,7 +152,7 @@ private:
     const double stable = stability_limit(input_.time.scheme) / fastest;
     if (input_.time.step > stable)
       throw NumericsFailure(
-          "step",
+          failure_kind::step,
           fmt::format("time.step = {:.3g} is unstable: beyond {:.3g} the fastest decay of the "
                       "membrane, at a rate of {:.3g}, grows",
                       input_.time.step, stable, fastest),
@@ -175,7 +175,7 @@ private:
         if (const auto status = run_leg(integrator, steps_of_a_leg))
           return *status;
       } catch (const NumericsFailure &failure) {
-        if (failure.kind == "step" && cause_)
+        if (failure.kind == failure_kind::step && cause_)
           throw NumericsFailure(*cause_);
         throw;
       }
@@ -206,7 +206,7 @@ private:
     here.min_film = gauge_.film(record_.position);
     throw_if_stopped({.row = here});
     if (input_.time.scheme == Scheme::bdf && gone < shortest_leg)
-      throw NumericsFailure("unresolved",
+      throw NumericsFailure(failure_kind::unresolved,
                             fmt::format("the last {} steps lead on by {:.1g} only, with a film of {:.2g}",
                                         steps, gone, here.min_film),
                             "try a finer mesh.membrane");

@@ -37,8 +37,8 @@ Outcome march_to_end(const Case &input, const Checkpoint &from, const Control &c
 // Failures that may be the mesh's own.
 bool may_pass_on_finer_mesh(const Outcome &outcome) {
   return outcome.status == Status::failed &&
-         (outcome.failure == "wrinkled" || outcome.failure == "touching" || outcome.failure == "unresolved" ||
-          outcome.failure == "step");
+         (outcome.failure == failure_kind::wrinkled || outcome.failure == failure_kind::touching ||
+          outcome.failure == failure_kind::unresolved || outcome.failure == failure_kind::step);
 }
 
 // The march that is asked for, and the input that it ended with. What fails on a mesh that was chosen from the accuracy

@@ -14,24 +14,24 @@ constexpr int dents_of_wrinkles = 3;
 
 constexpr std::array table{
     // The equations see the nodes only. Where a thin film is gone between them, steps get ever shorter.
-    Stop{.kind = "touching",
+    Stop{.kind = failure_kind::touching,
          .holds = [](const Instant &now) { return now.row.min_film <= 0; },
          .what = [](const Instant &) -> std::string {
            return "the membrane touches the wall between its nodes";
          },
          .advice = "try a smaller accuracy or a finer mesh.membrane"},
-    Stop{.kind = "self-contact",
+    Stop{.kind = failure_kind::self_contact,
          .holds = [](const Instant &now) { return now.crosses_itself; },
          .what = [](const Instant &) -> std::string { return "the membrane crosses itself"; },
          .advice = "raise membrane.bending_ratio or refine mesh.membrane"},
-    Stop{.kind = "volume",
+    Stop{.kind = failure_kind::volume,
          .holds = [](const Instant &now) { return std::abs(now.row.volume_change) > largest_volume_change; },
          .what =
              [](const Instant &now) {
                return fmt::format("the volume has drifted by {:.2g} %", 100 * now.row.volume_change);
              },
          .advice = "try a smaller accuracy (or time.tolerance) or a finer mesh.membrane"},
-    Stop{.kind = "wrinkled",
+    Stop{.kind = failure_kind::wrinkled,
          .holds =
              [](const Instant &now) {
                return now.row.dents >= dents_of_wrinkles && now.row.roughness > now.roughness_limit;
@@ -44,7 +44,7 @@ constexpr std::array table{
                    now.row.dents);
              },
          .advice = "raise membrane.bending_ratio, or mesh.membrane until it resolves the wrinkles"},
-    Stop{.kind = "burst",
+    Stop{.kind = failure_kind::burst,
          .holds = [](const Instant &now) { return now.bursts; },
          .what =
              [](const Instant &now) {
@@ -54,7 +54,7 @@ constexpr std::array table{
                                   now.row.max_tension, now.row.S_at_max_tension);
              },
          .advice = "until.area_stretch and until.tension say what it bears"},
-    Stop{.kind = "unbounded",
+    Stop{.kind = failure_kind::unbounded,
          .holds = [](const Instant &now) { return now.row.max_stretch > runaway_stretch; },
          .what =
              [](const Instant &) {

@@ -17,7 +17,8 @@ Eigen::Map<Vector> view(N_Vector v) {
 
 void check(int flag, const char *what) {
   if (flag < 0)
-    throw NumericsFailure("step", fmt::format("the time integrator failed in {} (CVODE code {})", what, flag),
+    throw NumericsFailure(failure_kind::step,
+                          fmt::format("the time integrator failed in {} (CVODE code {})", what, flag),
                           "try a larger time.tolerance or a finer mesh.membrane");
 }
 

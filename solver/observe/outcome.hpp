@@ -3,6 +3,7 @@
 // follows and interrupts it.
 #include "flow/recycled_solver.hpp"
 #include "observe/records.hpp"
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -15,6 +16,12 @@ namespace capsule {
 constexpr double runaway_stretch = 4;
 
 enum class Status { reached, steady, unbounded, burst, failed, interrupted };
+// The same as summary.json and expectations have it; an interrupted run has no summary.
+constexpr std::array status_words{"reached", "steady", "unbounded", "burst", "failed"};
+constexpr const char *word_of(Status status) {
+  const auto place = static_cast<std::size_t>(status);
+  return place < status_words.size() ? status_words[place] : "interrupted";
+}
 
 // What a march has done since an integrator began. The integrator itself cannot be saved; but one that begins there again
 // and is answered the same takes the same steps, bit by bit, without a flow being computed.

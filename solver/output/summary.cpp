@@ -16,24 +16,6 @@
 namespace capsule {
 namespace {
 
-const char *status_text(Status status) {
-  switch (status) {
-  case Status::reached:
-    return "reached";
-  case Status::steady:
-    return "steady";
-  case Status::unbounded:
-    return "unbounded";
-  case Status::burst:
-    return "burst";
-  case Status::failed:
-    return "failed";
-  case Status::interrupted:
-    break;
-  }
-  return "interrupted";
-}
-
 Json to_json(const Value &value) {
   return std::visit(
       [](const auto &v) -> Json {
@@ -66,7 +48,7 @@ Json physical_json(const Case &physics, const Json &summary) {
 
 std::string summary_text(const Case &physics, const Outcome &outcome, const Effort &effort) {
   Json json;
-  json["status"] = status_text(outcome.status);
+  json["status"] = word_of(outcome.status);
   json["failure"] = outcome.failure.empty() ? Json() : Json(outcome.failure);
   json["message"] = outcome.message.empty() ? Json() : Json(outcome.message);
   const std::vector<SeriesRow> &series = outcome.last.series;

@@ -472,7 +472,7 @@ FlowState PaperSystem::flow(const Vector &position) const {
   const Eigen::PartialPivLU<Eigen::Ref<Matrix>> factors(block);
   const Vector solution = factors.transpose().solve(right_side);
   if (!solution.allFinite())
-    throw NumericsFailure("not-a-number", "the system of eq. 29 has no finite solution",
+    throw NumericsFailure(failure_kind::not_a_number, "the system of eq. 29 has no finite solution",
                           "use a smaller step");
   return {nodal_velocity(solution, n), empty_pressure - solution(size - 1)};
 }

@@ -75,7 +75,7 @@ std::vector<std::pair<std::string, std::string>> told_quantities(const Summary &
   std::vector<std::pair<std::string, std::string>> told;
   if (!summary.along.empty())
     told.emplace_back(summary.along, "time"); // on a branch the key takes the place of the time
-  else if (summary.status != "steady")
+  else if (summary.status != word_of(Status::steady))
     told = {{"t", "time"}, {"x_g", "x_g"}};
   told.insert(told.end(), {{"v_g", "v_g"}, {"pressure drop", "pressure_drop"}});
   return told;

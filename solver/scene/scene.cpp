@@ -55,19 +55,20 @@ Vector place_in_flow(FlowType flow, Vector position) {
 void require_capsule(const std::optional<Pore> &pore, const Vector &position, const Advice &advice) {
   const Eigen::Index n = position.size() / 2;
   if (!position.allFinite())
-    throw NumericsFailure("not-a-number", "the membrane's position is not a number",
+    throw NumericsFailure(failure_kind::not_a_number, "the membrane's position is not a number",
                           "try a finer mesh.membrane");
   if (position.tail(n).minCoeff() < 0)
-    throw NumericsFailure("folded", "the membrane crosses the axis", "try a larger membrane.bending_ratio");
+    throw NumericsFailure(failure_kind::folded, "the membrane crosses the axis",
+                          "try a larger membrane.bending_ratio");
   if (!pore)
     return;
   if (position.head(n).maxCoeff() > pore->end_of_way - section_margin ||
       (pore->shape == PoreShape::tube &&
        position.head(n).minCoeff() < section_margin - pore->entrance_distance))
-    throw NumericsFailure("exit", "the membrane reaches the end of the pore", advice.at_the_end);
+    throw NumericsFailure(failure_kind::exit, "the membrane reaches the end of the pore", advice.at_the_end);
   for (Eigen::Index k = 0; k < n; ++k)
     if (position[n + k] >= wall_radius(*pore, position[k]))
-      throw NumericsFailure("touching", "the membrane touches the wall", advice.at_the_wall);
+      throw NumericsFailure(failure_kind::touching, "the membrane touches the wall", advice.at_the_wall);
 }
 
 } // namespace capsule

@@ -107,7 +107,7 @@ public:
       return true;
     }
     if (std::ssize(outcome().branch) > most_points)
-      throw NumericsFailure("step",
+      throw NumericsFailure(failure_kind::step,
                             fmt::format("{} points have led to {} only", most_points, path_.text(part_)),
                             "a nearer --to");
     if (branch_->wants_a_finer_mesh())

@@ -96,7 +96,8 @@ SteadyState from_profile(const Case &input, const Profile &profile, const Contro
       state.unknowns = solve_steady(*state.system, relaxed(*state.system, state.unknowns, control));
     } catch (const NumericsFailure &) {
       if (const std::string other = other_capsule(input, profile); !other.empty())
-        throw NumericsFailure("unresolved", other, "begin with a profile of this one, or leave --from away");
+        throw NumericsFailure(failure_kind::unresolved, other,
+                              "begin with a profile of this one, or leave --from away");
       throw;
     }
   }

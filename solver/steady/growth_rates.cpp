@@ -106,7 +106,8 @@ Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns
       rates.push_back(1.0 / value);
   }
   if (rates.empty())
-    throw NumericsFailure("unresolved", "the growth rates do not converge", "try a finer mesh.membrane");
+    throw NumericsFailure(failure_kind::unresolved, "the growth rates do not converge",
+                          "try a finer mesh.membrane");
   std::sort(rates.begin(), rates.end(), grows_more);
   return Eigen::Map<Eigen::VectorXcd>(rates.data(), std::ssize(rates));
 }

@@ -42,7 +42,7 @@ public:
       try {
         arrived = follow(path);
       } catch (const NumericsFailure &failure) {
-        if (failure.kind == "fold" || !can_refine())
+        if (failure.kind == failure_kind::fold || !can_refine())
           throw;
       }
       if (place_.part < 0) { // the fold that led here was the coarse mesh's own
@@ -120,15 +120,17 @@ private:
       }
     }
     if (place_.turned_at.empty())
-      throw NumericsFailure("unresolved",
+      throw NumericsFailure(failure_kind::unresolved,
                             fmt::format("the branch does not end beyond {}", path.text(place_.part)),
                             "try a finer mesh.membrane or a larger membrane.bending_ratio");
     const double stretch = state_.system->largest_stretch(branch.point().unknowns);
     if (stretch < large_stretch || stretch < growth_behind_fold * place_.stretch_at_fold)
       throw NumericsFailure(
-          "unresolved", fmt::format("the branch turns at {} and is not seen to come back", place_.turned_at),
+          failure_kind::unresolved,
+          fmt::format("the branch turns at {} and is not seen to come back", place_.turned_at),
           "begin with a profile of a march (--from)");
-    throw NumericsFailure("fold", fmt::format("fold at {}", place_.turned_at), "stay on the near side of it");
+    throw NumericsFailure(failure_kind::fold, fmt::format("fold at {}", place_.turned_at),
+                          "stay on the near side of it");
   }
 
   // How far the branch of one key has been followed.
@@ -211,7 +213,7 @@ Homotopy in_a_flow(double strength, const Case &target, const Control &control) 
 
 // What a fold on the way of growing flow says of the case.
 NumericsFailure no_steady_state(const NumericsFailure &fold) {
-  return {"fold", fmt::format("no steady state: {}", fold.what()), fold.advice};
+  return {failure_kind::fold, fmt::format("no steady state: {}", fold.what()), fold.advice};
 }
 
 SteadyState without_neighbours(const Case &input, const Control &control) {
@@ -225,7 +227,7 @@ SteadyState without_neighbours(const Case &input, const Control &control) {
       homotopy.vary(flow_key, flow);
       return homotopy.state();
     } catch (const NumericsFailure &failure) { // it may run away, or buckle on the way: other branches tell
-      if (failure.kind == "fold")
+      if (failure.kind == failure_kind::fold)
         throw no_steady_state(failure);
       last = failure;
     }
@@ -242,15 +244,16 @@ SteadyState without_neighbours(const Case &input, const Control &control) {
       homotopy.vary(flow_key, flow);
       return homotopy.state();
     } catch (const NumericsFailure &failure) {
-      if (only_flow_is_left && failure.kind == "fold")
+      if (only_flow_is_left && failure.kind == failure_kind::fold)
         throw no_steady_state(failure);
       if (!first)
         first = failure;
     }
   }
-  throw NumericsFailure(first->kind == "fold" ? "unresolved" : first->kind,
+  throw NumericsFailure(first->kind == failure_kind::fold ? failure_kind::unresolved : first->kind,
                         fmt::format("no way found from a small stiff sphere: {}", first->what()),
-                        first->kind == "fold" ? "try a larger membrane.bending_ratio" : first->advice);
+                        first->kind == failure_kind::fold ? "try a larger membrane.bending_ratio"
+                                                          : first->advice);
 }
 
 // The state of a capsule alone, and then its neighbours: near enough to be felt at once, or coming closer if Newton's

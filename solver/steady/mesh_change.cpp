@@ -35,7 +35,7 @@ void follow(const KeyPath &path, SteadyState &state) {
   Branch branch(*state.system, path, {state.unknowns, 0}, Branch::upwards(*state.system), steps);
   for (int step = 0; branch.point().parameter < 1; ++step) {
     if (step == most_steps || branch.point().parameter < 0)
-      throw NumericsFailure("unresolved", fmt::format("no way to {}", path.text(1)),
+      throw NumericsFailure(failure_kind::unresolved, fmt::format("no way to {}", path.text(1)),
                             "try a finer mesh.membrane");
     branch.advance();
   }

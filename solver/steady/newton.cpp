@@ -46,7 +46,7 @@ bool contracts(int iteration, double before, double now) {
 }
 
 void no_convergence() {
-  throw NumericsFailure("unresolved", "Newton's method does not converge",
+  throw NumericsFailure(failure_kind::unresolved, "Newton's method does not converge",
                         "try a finer mesh.membrane or a larger membrane.bending_ratio");
 }
 

@@ -173,7 +173,8 @@ void SteadySystem::require_shape(const Vector &position) const {
   Chain next = here;
   next.x.array() += input_.flow.period;
   if (overlap(here, next))
-    throw NumericsFailure("touching", "neighbouring capsules of the train touch", "try a larger flow.period");
+    throw NumericsFailure(failure_kind::touching, "neighbouring capsules of the train touch",
+                          "try a larger flow.period");
 }
 
 double SteadySystem::gap_to_next(const Vector &position) const {
