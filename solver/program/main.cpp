@@ -2,6 +2,7 @@
 #include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
+#include "program/check_commands.hpp"
 #include "program/commands.hpp"
 #include "program/list_keys.hpp"
 #include <CLI/CLI.hpp>
