@@ -1,6 +1,6 @@
 #pragma once
 // A short name for a content: equal contents have equal ones, others differ but for an accident. No protection against
-// intent.
+// intent. Throws nothing.
 #include <string>
 #include <string_view>
 

@@ -1,5 +1,6 @@
 #pragma once
 // A lock on a directory that one process holds at a time. It ends with the process, however that ends.
+// Throws nothing.
 #include <filesystem>
 
 namespace capsule {

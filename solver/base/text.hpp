@@ -1,5 +1,5 @@
 #pragma once
-// Numbers, words and characters as text.
+// Numbers, words and characters as text. Throws nothing.
 #include <cstddef>
 #include <optional>
 #include <span>

@@ -1,7 +1,7 @@
 #pragma once
 // What the values of one run must be to each other: the step of a scheme, what each preset and each flow can
 // compute, and a capsule that fits into the pore from its start to its end. A value alone is checked by its key,
-// whether a key means something by case_file.
+// whether a key means something by case_file. Throws nothing: errors become complaints.
 #include "case/case_reader.hpp"
 #include "case/task.hpp"
 

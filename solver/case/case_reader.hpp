@@ -1,6 +1,7 @@
 #pragma once
 // What case files and --set give the keys: sections, sweeps and inheritance resolved, each value checked against its own
-// key and kept with its place; the last of several wins. What a case makes of it is up to case_file.hpp.
+// key and kept with its place; the last of several wins. What a case makes of it is up to case_file.hpp. Throws nothing:
+// errors become complaints.
 #include "case/key.hpp"
 #include "case/located_text.hpp"
 #include <filesystem>

@@ -1,6 +1,6 @@
 #pragma once
 // The number behind a key of a case, and the way of a key from one number to another. A key that is given by its name
-// has a real number for its value.
+// has a real number for its value. Throws nothing.
 #include "case/case.hpp"
 #include <optional>
 #include <string>

@@ -2,6 +2,7 @@
 // Where the project keeps its cases, beside tables/published.csv:
 //   cases/<id>/case.toml, validation/<id>/case.toml
 //   cases/<id>/<name>.toml   whose results may be stored in cases/<id>/<name>/
+// Throws std::filesystem::filesystem_error only where a path cannot be resolved.
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -3,6 +3,7 @@
 // - it finds the recorded verdict: an agreement where a difference is recorded is a mistake, too;
 // - of a number or ratio of the paper, the estimated error of the computed value is at most a fifth of the distance on
 //   which the verdict depends: the allowed one if it agrees, the one that was found if it differs.
+// Throws InputError and FileError where the files of a run cannot be read (run_values.hpp).
 #include "compare/expectations.hpp"
 #include "compare/run_values.hpp"
 #include "compare/text_table.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // The ledger of the paper's claims: one line for each row of tables/published.csv that belongs to a claim. Of a row that
-// is compared with several runs it shows the run that fits worst.
+// is compared with several runs it shows the run that fits worst. Throws nothing.
 #include "compare/comparison.hpp"
 
 namespace capsule {

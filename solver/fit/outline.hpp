@@ -4,6 +4,7 @@
 //   distance d = n.(P - X(zeta*)), with the foot zeta* of the perpendicular and the normal n out of the capsule
 // is positive outside. Its derivative along anything that moves the meridian is -n.dX(zeta*), because the foot's own motion
 // is along the tangent.
+// Throws nothing.
 #include "case/parameters.hpp"
 #include "geometry/meridian.hpp"
 

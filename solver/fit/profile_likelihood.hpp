@@ -1,5 +1,6 @@
 #pragma once
 // How far one parameter may go from a minimum before the sum of squares, minimised over all others, has grown by so much.
+// Throws what the problem's evaluation throws, but for NumericsFailure, which ends the way.
 #include "fit/least_squares.hpp"
 
 namespace capsule {

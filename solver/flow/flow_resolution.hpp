@@ -1,5 +1,6 @@
 #pragma once
 // How finely the flow is resolved.
+// Lengths of the wall in R_t, of a membrane in zeta.
 #include "base/linear_algebra.hpp"
 #include <limits>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a flow solver returns for one shape of the membrane.
+// What a flow solver returns for one shape of the membrane, in the scales of undisturbed.hpp.
 #include "base/linear_algebra.hpp"
 #include <limits>
 

@@ -5,11 +5,11 @@
 //   Membranes and wall act on each other through one matrix of kernels between nodes and wall points: the kernel
 // is symmetric, the wall's panels and the rule on the nodes are the weights. Pairs that are too near for a rule have
 // entries of their own.
-//   Images are the same membranes, with the same densities, at other places along the axis: they act, but nothing is
-// asked of them. A train of equal capsules is one of them with its images.
+//   Images are copies of the membranes with the same densities, shifted along the axis: they add to the velocity, but there
+// are no equations at their nodes. A train of equal capsules is one of them with its images.
 //   The flow rate falls by Delta P over the drive's resistance: Q = 1 - Delta P/resistance. A pump that keeps the flow
 // rate has an infinite one; constant pressure between the pore's ends is the resistance of the empty pore,
-// Wall::base_pressure_drop.
+// Wall::base_pressure_drop. Throws nothing.
 #include "flow/membrane_mesh.hpp"
 #include "flow/wall.hpp"
 #include <limits>
@@ -48,7 +48,8 @@ public:
   Vector double_at_wall(const Vector &density) const;
   Matrix single_at_wall() const;
   Matrix double_at_wall() const;
-  // C A^(-1): from the wall back to the nodes. It includes what the drive does when the pressure rises.
+  // C A^(-1): from the left sides of the wall's equations to velocities of the nodes, with the change of the flow rate
+  // that the extra pressure drop makes (Drive).
   Vector answer_of_wall(const Vector &at_wall) const;
   RowMatrix answer_of_wall() const { return from_wall_ * wall_->inverse(); }
 

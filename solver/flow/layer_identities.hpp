@@ -6,7 +6,7 @@
 //   - its flux through a membrane is minus half of the flux of the density on that membrane.
 // (3.1) multiplies an error in the first by lambda and one in the second by 1/lambda: with the identities imposed, a march
 // keeps its accuracy at any viscosity ratio, and the membrane its volume. Nodal fields are those of membrane_mesh.hpp,
-// matrices have a column for each membrane.
+// matrices have a column for each membrane. Throws nothing.
 #include "flow/membrane_mesh.hpp"
 
 namespace capsule {

@@ -7,7 +7,8 @@
 // of the pressure on a cap that lets the liquid through, as if a pump stood there; both reservoirs are at rest and have no
 // pressure far away. The row is the flux through the cap: the column transposed. The wall goes on, at least to twice
 // the distance: at its free end the flow's error is largest, and the flux would sum it.
-// Velocities: 2 n, axial, then radial; tractions are those on the liquid, with the normal out of it.
+// Velocities: 2 n, axial, then radial; tractions are those on the liquid, with the normal out of it, scaled as in
+// undisturbed.hpp. Throws nothing.
 #include "geometry/pore.hpp"
 #include "integrals/layer_potential.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 // The flows without membranes that have a closed form, in the paper's scales: lengths R_t, velocities Q/(pi R_t^2),
-// pressures mu Q/(pi R_t^3). Velocities at any points: 2 n, axial, then radial.
+// pressures mu Q/(pi R_t^3). Velocities at any points: 2 n, axial, then radial. Throws nothing.
 #include "integrals/layer_potential.hpp"
 
 namespace capsule {

@@ -3,7 +3,8 @@
 //   unknowns    force_x on the wall's points, P' at the outlet, force_r on the wall's points
 //   equations   v_x = 0 at the wall's points, the outlet's row, v_r = 0 at the wall's points
 // A force is a traction times its point's share of the wall over 8 pi: what a point force needs as a factor of the ring
-// stokeslet. Without a pore the liquid is unbounded and there are no unknowns.
+// stokeslet. Without a pore the liquid is unbounded and there are no unknowns. Scales as in undisturbed.hpp. Throws
+// nothing.
 #include "flow/flow_resolution.hpp"
 #include "flow/outlet.hpp"
 #include "flow/undisturbed.hpp"

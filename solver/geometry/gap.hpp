@@ -1,6 +1,6 @@
 #pragma once
 // The liquid between two capsules on the axis, from their meridians as chains of points. Chords are off a curve of
-// curvature k by k h^2/8, h their length; so is the gap.
+// curvature k by k h^2/8, h their length; so is the gap. Lengths in R_t. Throws what the basis throws (meridian.hpp).
 #include "geometry/meridian.hpp"
 
 namespace capsule {

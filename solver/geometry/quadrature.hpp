@@ -1,6 +1,6 @@
 #pragma once
 // Quadrature on panels: composite Gauss-Legendre rules, product weights for a logarithm inside or beside a
-// panel, and interpolation from a panel's nodes.
+// panel, and interpolation from a panel's nodes. Throws nothing.
 #include "base/linear_algebra.hpp"
 
 namespace capsule {

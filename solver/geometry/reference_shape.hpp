@@ -4,6 +4,7 @@
 // X = -A cos(angle), R = B sin(angle), A and B of extent(); of a red cell -X is half of Evans and Fung's thickness, which
 // is cos(angle) times a polynomial in R. The nodes of a mesh lie at angles that any smooth odd function of zeta may give:
 // shapes keep their parities and the basis its exponential convergence.
+// Throws nothing.
 #include "base/linear_algebra.hpp"
 #include "case/parameters.hpp"
 

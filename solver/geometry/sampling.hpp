@@ -1,6 +1,6 @@
 #pragma once
 // A meridian at fixed points: the matrices that take nodal values there, and the curve itself. Nodal positions and
-// displacements are 2N: axial components, then radial ones.
+// displacements are 2N: axial components, then radial ones. Throws what the basis throws (meridian.hpp).
 #include "geometry/meridian.hpp"
 
 namespace capsule {

@@ -8,6 +8,7 @@
 //   near     the panel is halved, with its polynomial interpolant, until its Gauss rule reaches the tolerance
 //   self     a target that lies on the curve: product weights for the logarithm on the panels that hold or
 //   touch it
+// Throws nothing.
 #include "geometry/quadrature.hpp"
 #include "integrals/ring_kernel.hpp"
 #include <functional>

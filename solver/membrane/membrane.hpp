@@ -1,6 +1,7 @@
 #pragma once
 // The membrane as an elastic body: its reference shape sampled on a quadrature along the meridian, its
-// strain, and the energy whose gradient is its load on the liquids (load.hpp).
+// strain, and the energy whose gradient is its load on the liquids (load.hpp). Lengths are scaled with R_t, tensions with G,
+// moments with G R_t. Throws what the basis throws (meridian.hpp).
 #include "case/parameters.hpp"
 #include "geometry/sampling.hpp"
 #include "law/law.hpp"

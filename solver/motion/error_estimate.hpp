@@ -1,6 +1,6 @@
 #pragma once
 // Bounds of a march's errors from its differences to a slightly coarser one (motion; what was weighed:
-// paper-notes/methods.md).
+// paper-notes/methods.md). Throws nothing.
 #include "case/parameters.hpp"
 #include "observe/records.hpp"
 #include <map>

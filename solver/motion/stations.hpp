@@ -1,5 +1,5 @@
 #pragma once
-// Where a march records a row: the values of x_g or of time at which one is due.
+// Where a march records a row: the values of x_g or of time at which one is due. Throws nothing.
 #include <optional>
 #include <vector>
 

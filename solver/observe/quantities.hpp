@@ -2,7 +2,7 @@
 // What a run reports, a line a quantity. From these tables follow the columns of series.csv, branch.csv,
 // series_physical.csv and profiles.csv, the end of a run in summary.json, checkpoints, and what error estimates speak of.
 //   A new quantity of an instant is a member of SeriesRow (records.hpp), a line of its table (quantities.cpp) with the
-// same words in paper-notes/files.md, and its computation (gauge.hpp).
+// same words in paper-notes/files.md, and its computation (gauge.hpp). Throws nothing.
 #include "case/physical.hpp"
 #include "observe/records.hpp"
 #include <optional>

@@ -1,5 +1,6 @@
 #pragma once
 // What a run reports: a row of numbers for an instant, a profile along the meridian. Scales as in case/parameters.hpp.
+// Throws nothing.
 #include "base/linear_algebra.hpp"
 #include <limits>
 #include <optional>

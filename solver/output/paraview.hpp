@@ -1,6 +1,7 @@
 #pragma once
 // The profiles of a run and the wall as surfaces of revolution for ParaView, in VTK's XML: triangles, of a membrane with the
 // stretches and tensions at their corners, and the collection of all instants. Lengths are scaled with R_t, tensions with G.
+// Throws nothing.
 #include "geometry/pore.hpp"
 #include "observe/records.hpp"
 #include <string>

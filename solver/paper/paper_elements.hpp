@@ -3,6 +3,7 @@
 // quadrature rules of an element.
 //   A spline on N elements has N + 3 coefficients; element e = 0 ... N-1 carries the B-splines e ... e+3 (eq.
 //   19). Node j has parameter j. Derivatives are with respect to this parameter.
+// Throws nothing.
 #include "base/linear_algebra.hpp"
 
 namespace capsule {

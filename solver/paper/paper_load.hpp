@@ -8,6 +8,7 @@
 //   these splines
 // Splines of the shear force or of q through their nodal values do not see a mode that alternates from node
 // to node and let it grow; the measurements are in paper-notes/paper-preset.md.
+// Throws nothing.
 #include "case/parameters.hpp"
 #include "law/law.hpp"
 #include "paper/paper_elements.hpp"

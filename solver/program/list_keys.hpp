@@ -1,5 +1,5 @@
 #pragma once
-// The command `capsule keys`: every key of a case file, with its meaning, its default and what is allowed.
+// The command `capsule keys`: every key of a case file, with its meaning, its default and what is allowed. Throws nothing.
 #include "program/exit_code.hpp"
 
 namespace capsule {

@@ -1,5 +1,6 @@
 #pragma once
-// Messages about the runs of a case: one line on a terminal that changes while they are computed, and lines that stay.
+// Messages about the runs of a case: one line on a terminal that changes while they are computed, and lines that stay. Throws
+// nothing.
 #include <chrono>
 #include <map>
 #include <string>

@@ -1,5 +1,6 @@
 #pragma once
-// The flow around a membrane in a scene's pore, or in unbounded liquid where there is none.
+// The flow around a membrane in a scene's pore, or in unbounded liquid where there is none. Throws what Flow
+// and Wall throw.
 #include "flow/flow.hpp"
 #include "geometry/pore.hpp"
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 // Mesh, quadrature and time tolerance, chosen from the accuracy asked for. Keys of the case override what they name.
-// How the numbers were found: paper-notes/methods.md.
+// How the numbers were found: paper-notes/methods.md. Throws nothing.
 #include "flow/flow_resolution.hpp"
 
 namespace capsule {

@@ -1,6 +1,6 @@
 #pragma once
-// A case's steady state from nothing. At first the capsule is let loose in the tube, undeformed, with a stiff membrane that
-// is softened then (relaxation.hpp); if need be in a weaker flow, from which a branch (continuation.hpp) leads to the case's
+// A case's steady state from nothing. At first the undeformed capsule relaxes in the tube with a stiff membrane, which is
+// softened then (relaxation.hpp); if need be in a weaker flow, from which a branch (continuation.hpp) leads to the case's
 // own. Where it does not come to rest at all, branches lead from a small stiff sphere in a weak flow to the case's
 // capsule, one key after the other, the capillary number last. The mesh gets finer on the way where it must.
 // A train begins with one capsule alone.

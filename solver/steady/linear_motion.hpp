@@ -12,7 +12,7 @@
 // with one derivative of the load more than the motion has, those would be the worst resolved part. So this is
 // the derivative of the discrete motion up to errors of quadrature, but for the wall's answers, which come
 // from nodal values. For lambda = 1 this is so for any other shape as well, but for the gradient of the
-// inner flow, through which the nodes are displaced: d.grad u is added.
+// inner flow, through which the nodes are displaced: d.grad u is added. Throws nothing.
 #include "flow/flow.hpp"
 #include "membrane/membrane.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-// From a shape that is too far off for Newton's method, the way that it takes itself in the tube with equal viscosities:
-// implicit steps in time, which get longer as the motion dies away, until they are Newton's.
+// Where a shape is too far off for Newton's method: its motion in the tube with equal viscosities, in implicit steps of
+// time. They get longer as the motion dies away; the last ones are Newton's.
 #include "observe/outcome.hpp"
 #include "steady/steady_system.hpp"
 

@@ -10,6 +10,7 @@
 // before the last one, e < 1e-5 keeps that below the tolerance of 1e-9.
 //   The period of a train moves images: it enters through the flow. Then the whole residual is differentiated likewise, to
 // about 1e-6, as kernels are integrated to 1e-9.
+// Throws NumericsFailure for shapes that are no capsule in the tube (sensitivities).
 #include "steady/steady_system.hpp"
 #include <span>
 #include <string>
