@@ -111,6 +111,19 @@ Vector Flow::friction_load(const std::vector<SurfaceFriction> &frictions, const 
   return load;
 }
 
+Matrix Flow::friction_jacobian(const Interaction &interaction, const Vector &velocity) const {
+  Matrix jacobian = Matrix::Zero(2 * mesh_.nodes, 2 * mesh_.nodes);
+  const Vector nodal_area = 2 * std::numbers::pi * interaction.shape().nodes.area;
+  for (std::size_t k = 0; k < surface_viscosities_.size(); ++k) {
+    const MembraneMesh::Part &part = mesh_.parts[k];
+    const std::vector<Eigen::Index> rows = mesh_.rows(k);
+    jacobian(rows, rows) = capsule::friction_jacobian(
+        part.at_panels, nodal_area.segment(part.first_node, part.nodes()), interaction.shape().position(rows),
+        surface_viscosities_[k], velocity(rows));
+  }
+  return jacobian;
+}
+
 Vector Flow::load_with_friction(const Interaction &interaction, const Vector &f,
                                 const Vector &velocity) const {
   return surface_viscosities_.empty() ? f : Vector(f - friction_load(frictions(interaction), velocity));

@@ -59,6 +59,9 @@ public:
   // Velocity of the outer liquid at points off the membranes, 2 n, in the flow that f has made.
   Vector outer_velocity(const Targets &points, const Interaction &interaction, const Vector &f,
                         const FlowState &state) const;
+  bool has_friction() const { return !surface_viscosities_.empty(); }
+  // Derivative of the membranes' friction R v with respect to the position for a fixed velocity, 2N x 2N.
+  Matrix friction_jacobian(const Interaction &interaction, const Vector &velocity) const;
   // dv/df for frozen shapes, 2N x 2N.
   Matrix mobility(const Interaction &interaction, Recycled &recycled) const;
 

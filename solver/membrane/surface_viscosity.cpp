@@ -31,4 +31,40 @@ Vector SurfaceFriction::load(const Vector &velocity) const {
   return power.cwiseQuotient(nodal_area_);
 }
 
+// With s the length of the tangent t and D the change by a displacement of the nodes, the power against w is the integral of
+// T_s e_s(w) + T_phi e_phi(w) over the area, where e_s(w) = t.w'/s^2, e_phi(w) = w_r/r:
+//   D area = (e_s + e_phi) area
+//   D e_s(w) = D t.w'/s^2 - 2 e_s(w) e_s,   D e_phi(w) = -e_phi(w) e_phi,   with e_s, e_phi of the displacement
+Matrix friction_jacobian(const Sampling &at, const Vector &nodal_area, const Vector &position,
+                         const SurfaceViscosity &viscosity, const Vector &velocity) {
+  const Trace curve = trace(at, position);
+  const Eigen::Index n = nodal_area.size();
+  Matrix azimuthal = Matrix::Zero(curve.r.size(), 2 * n); // e_phi of nodal displacements
+  azimuthal.rightCols(n) = curve.r.cwiseInverse().asDiagonal() * at.odd[0];
+  const Matrix meridional = area_change(at, curve) - azimuthal; // e_s
+  const Vector square = curve.arc.array().square();
+  const Vector e_s = meridional * velocity, e_phi = azimuthal * velocity;
+
+  Matrix d_meridional(curve.r.size(), 2 * n); // D e_s, D e_phi of the velocity
+  d_meridional << (at.even[1] * velocity.head(n)).cwiseQuotient(square).asDiagonal() * at.even[1],
+      (at.odd[1] * velocity.tail(n)).cwiseQuotient(square).asDiagonal() * at.odd[1];
+  d_meridional -= 2 * e_s.asDiagonal() * meridional;
+  const Matrix d_azimuthal = -(e_phi.asDiagonal() * azimuthal);
+
+  const double with = viscosity.dilatational + viscosity.shear,
+               across = viscosity.dilatational - viscosity.shear;
+  const Vector t_s = with * e_s + across * e_phi, t_phi = across * e_s + with * e_phi;
+  const Vector area = 2 * std::numbers::pi * at.weights.array() * curve.r.array() * curve.arc.array();
+  const Matrix against_meridional =
+      with * d_meridional + across * d_azimuthal + t_s.asDiagonal() * (azimuthal - meridional);
+  const Matrix against_azimuthal =
+      across * d_meridional + with * d_azimuthal + t_phi.asDiagonal() * meridional;
+  Matrix change = meridional.transpose() * area.asDiagonal() * against_meridional +
+                  azimuthal.transpose() * area.asDiagonal() * against_azimuthal;
+  const Vector tension = area.cwiseProduct(t_s).cwiseQuotient(square);
+  change.topLeftCorner(n, n) += at.even[1].transpose() * tension.asDiagonal() * at.even[1];
+  change.bottomRightCorner(n, n) += at.odd[1].transpose() * tension.asDiagonal() * at.odd[1];
+  return nodal_area.replicate(2, 1).cwiseInverse().asDiagonal() * change;
+}
+
 } // namespace capsule

@@ -32,4 +32,8 @@ private:
   Vector nodal_area_;             // 2N
 };
 
+// Derivative of R v with respect to the position for a fixed velocity, with the nodes' areas frozen, 2N x 2N.
+Matrix friction_jacobian(const Sampling &at, const Vector &nodal_area, const Vector &position,
+                         const SurfaceViscosity &viscosity, const Vector &velocity);
+
 } // namespace capsule

@@ -38,9 +38,15 @@ Dynamics standard_dynamics(const Case &physics) {
       recycled->traction = std::move(copy.traction);
     return state;
   };
-  dynamics.jacobian = [flow, scene, capillary_number, recycled](const Vector &position) -> Matrix {
-    return flow->mobility(flow->interact(position), recycled->velocity) *
-           frozen_load_jacobian(scene->membrane, position, capillary_number);
+  dynamics.jacobian = [flow, scene, f, capillary_number, recycled](const Vector &position) -> Matrix {
+    const Interaction interaction = flow->interact(position);
+    const Matrix mobility = flow->mobility(interaction, recycled->velocity);
+    Matrix load = frozen_load_jacobian(scene->membrane, position, capillary_number);
+    if (flow->has_friction()) {
+      Recycled copy = recycled->velocity;
+      load -= flow->friction_jacobian(interaction, flow->solve(interaction, f(position), copy).velocity);
+    }
+    return mobility * load;
   };
   return dynamics;
 }

@@ -19,7 +19,7 @@ struct Dynamics {
   // each other up; reports of other rows change no digit of them.
   std::function<FlowState(const Vector &position, bool regular)> report;
   // Only of the standard preset: d velocity/d position with frozen hydrodynamic mobility and the exact
-  // derivative of the membrane's load.
+  // derivative of the membrane's load and friction.
   std::function<Matrix(const Vector &position)> jacobian;
   // What earlier shapes have left behind to speed up the next one. A march empties it where it begins, so that it depends
   // on its start alone.

@@ -68,6 +68,23 @@ BOOST_AUTO_TEST_CASE(power_of_the_rates_of_stretch) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(friction_of_other_positions) {
+  const Case physics = capsule_case(0.9, 0.7, skalak, 0);
+  const Membrane membrane = spectral_membrane(physics, 24);
+  const Vector position = random_position(membrane, 3), velocity = smooth_velocity(membrane.basis);
+  const SurfaceViscosity viscosity{2, 3};
+  const Vector area = nodal_area(membrane, position);
+  const Matrix jacobian = friction_jacobian(membrane.sampling, area, position, viscosity, velocity);
+  for (const Eigen::Index k : {0, 7, 23, 24, 30, 47}) {
+    const auto load = [&](double step) -> Vector {
+      return SurfaceFriction(membrane.sampling, area, position + step * Vector::Unit(48, k), viscosity)
+          .load(velocity);
+    };
+    const Vector change = derivative<Vector>(load, 1e-4);
+    BOOST_TEST(largest(jacobian.col(k) - change) < 1e-7 * largest(change));
+  }
+}
+
 // What the elastic energy loses, the liquids and the membrane turn into heat: in an unbounded liquid at rest, the liquids'
 // part from the gradients of the velocity in all of the space.
 BOOST_AUTO_TEST_CASE(energy_becomes_heat) {
