@@ -113,10 +113,12 @@ double largest(const StudyRun &run, const std::string &column) {
 // Whether no buckle, resolved or not, has come on the way: a parachute has one dent at its rear, the rim of an
 // ellipsoid another.
 bool is_smooth(const StudyRun &run) {
-  return (run.summary.status == "reached" || run.summary.status == "unbounded") && largest(run, "dents") < 3;
+  return (run.summary.status == word_of(Status::reached) ||
+          run.summary.status == word_of(Status::unbounded)) &&
+         largest(run, "dents") < 3;
 }
 bool passes(const StudyRun &run) {
-  return run.summary.status == "reached" || run.summary.status == "unbounded";
+  return run.summary.status == word_of(Status::reached) || run.summary.status == word_of(Status::unbounded);
 }
 
 void write_search(const Search &search, const std::string &directory) {

@@ -82,7 +82,7 @@ bool is_smooth(const Entrance &entrance) {
 // Every failure of a march must be for wrinkles that are there.
 bool is_named(const Entrance &entrance) {
   const bool right = entrance.outcome.status == Status::reached ||
-                     (entrance.outcome.failure == "wrinkled" && entrance.dents >= wrinkles);
+                     (entrance.outcome.failure == failure_kind::wrinkled && entrance.dents >= wrinkles);
   if (!right)
     fmt::print("failed as {}: {}\n", entrance.outcome.failure, entrance.outcome.message);
   return right;

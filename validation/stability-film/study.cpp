@@ -147,8 +147,8 @@ double film_in_panels(const Summary &summary, int nodes) {
 // Whether the word for how the march ended is right: the film that is left tells a membrane on the wall.
 bool is_right(const Summary &summary, double panels) {
   const bool pressed = panels < 0.02;
-  return pressed ? summary.failure == "unresolved" || summary.failure == "touching"
-                 : summary.status == "reached";
+  return pressed ? summary.failure == failure_kind::unresolved || summary.failure == failure_kind::touching
+                 : summary.status == word_of(Status::reached);
 }
 
 bool plugs(const std::string &directory, unsigned jobs) {
@@ -176,7 +176,8 @@ bool plugs(const std::string &directory, unsigned jobs) {
     if (k >= runs.size() / 2) { // the same capsule on the coarser mesh
       const Summary &coarse = runs[k - runs.size() / 2].summary;
       const double apart = std::abs(value("pressure_drop") - coarse.quantities.at("pressure_drop"));
-      agree = agree && (summary.status == "reached") == (coarse.status == "reached") &&
+      agree = agree &&
+              (summary.status == word_of(Status::reached)) == (coarse.status == word_of(Status::reached)) &&
               !(apart > error_of(summary) + error_of(coarse)); // none: an end that has no estimate
     }
     table.add(fmt::format("{:g},{:g},{},{},{:.2f},{:.5f},{:.5f},{:.5f},{:.5f},{:.1e},{:.2f}", radius, ratio,

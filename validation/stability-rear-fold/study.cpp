@@ -75,7 +75,7 @@ void soften(double from, double to, SteadyState &state) {
   for (int step = 0; branch.point().parameter < 1; ++step) {
     constexpr int most_steps = 40;
     if (step == most_steps || branch.point().parameter < 0)
-      throw NumericsFailure("unresolved", "no way to " + path.text(1), "try a finer mesh");
+      throw NumericsFailure(failure_kind::unresolved, "no way to " + path.text(1), "try a finer mesh");
     branch.advance();
   }
   state.unknowns = branch.at_parameter(1).unknowns;

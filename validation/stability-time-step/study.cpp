@@ -244,7 +244,7 @@ bool report_on_the_way() {
   physics.time.step =
       0.8 * stability_limit(Scheme::euler) / fastest(dynamics.jacobian(dynamics.scene->start));
   const Outcome outcome = march(physics, {}, {});
-  const bool right = outcome.failure == "step" && outcome.last.series.back().x_g > -2;
+  const bool right = outcome.failure == failure_kind::step && outcome.last.series.back().x_g > -2;
   fmt::print("Skalak, R_eq = 1, euler, 0.8 of the limit at the start: {}: {}\n", right ? "right" : "WRONG",
              outcome.failure.empty() ? "reached" : outcome.message);
   return right;
@@ -262,9 +262,9 @@ bool reports(const std::string &directory) {
       physics.time.scheme = scheme;
       physics.time.step = ratio * least * stability_limit(scheme) / 2;
       const Outcome outcome = march(physics, {}, {});
-      const bool named =
-          ratio > 1 ? outcome.failure == "step" && outcome.message.find("try time.step") != std::string::npos
-                    : outcome.status == Status::reached;
+      const bool named = ratio > 1 ? outcome.failure == failure_kind::step &&
+                                         outcome.message.find("try time.step") != std::string::npos
+                                   : outcome.status == Status::reached;
       right = right && named;
       fmt::print("{}, {:g} of the least limit: {}: {}\n", scheme == Scheme::euler ? "euler" : "rk4", ratio,
                  named ? "right" : "WRONG", outcome.failure.empty() ? "reached" : outcome.message);

@@ -106,7 +106,7 @@ bool entrances(const std::string &directory, unsigned jobs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const Summary &summary = runs[k].summary;
     const auto value = [&](const char *name) { return summary.quantities.at(name); };
-    const bool reached = summary.status == "reached";
+    const bool reached = summary.status == word_of(Status::reached);
     all = all && reached;
     double volume = 0;
     for (const double change : runs[k].history.at("volume_change"))
