@@ -1,7 +1,9 @@
 #include "case/case_checks.hpp"
 #include "base/text.hpp"
 #include "case/case.hpp"
+#include "case/empty_pore.hpp"
 #include "case/keys.hpp"
+#include "case/physical.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -213,6 +215,7 @@ struct Checks {
     else if (c.pore.shape == PoreShape::none)
       chosen.complain({"pore.shape"}, "a pore flow needs a pore",
                       "pore.shape = \"none\" goes with flow.type = \"extension\"");
+    check_pressure();
     if (task.fit)
       check_fit();
     if (task.motion)
@@ -262,6 +265,18 @@ struct Checks {
     return std::ranges::any_of(key.scope.values, [&](const std::string &law) {
       return std::ranges::find(tried, law) != tried.end();
     });
+  }
+
+  // Mouths that are close to each other cost less than two.
+  void check_pressure() {
+    const Case &c = physics;
+    if (c.physical.pressure.si > 0 && c.pore.shape != PoreShape::tube &&
+        driven_tube_length(c) < shortest_fitted_tube)
+      chosen.complain(
+          {"physical.pore_length", "pore.exit_x", "physical.pressure"},
+          fmt::format("physical.pressure sets no flow rate in a pore of {:.3g} radii", driven_tube_length(c)),
+          fmt::format("give physical.flow_rate instead, or a pore of {} radii or more",
+                      shortest_fitted_tube));
   }
 
   // From the start to the end of a motion.

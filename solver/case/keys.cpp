@@ -86,7 +86,9 @@ std::vector<Key> pore_keys() {
       of_motion(only_with({"pore.shape", {"hyperbolic", "two-mouths"}, "flow.type"},
                           {"pore.opening_angle_deg", "opening angle of the mouth, alpha of eq. 1, degrees",
                            member<double>(CAPSULE_AT(pore.opening_angle_deg)), above_up_to(0, 90)})),
-      of_motion(in_a_pore({"pore.exit_x", "where the tube ends, in the exit section or the second mouth, L_P",
+      of_motion(in_a_pore({"pore.exit_x",
+                           "where the tube ends, in the exit section or the second mouth, L_P; or "
+                           "physical.pore_length",
                            member<double>(CAPSULE_AT(pore.exit_x)), above_up_to(0, 1000)})),
       of_motion(in_a_pore(
           {"pore.entrance_distance",
@@ -244,9 +246,12 @@ std::vector<Key> physical_keys() {
                  measured(CAPSULE_AT(physical.viscosity), dimension::viscosity)}),
       in_a_pore({"physical.flow_rate", "Q", measured(CAPSULE_AT(physical.flow_rate), dimension::flow_rate)}),
       in_a_pore({"physical.pressure",
-                 "instead of Q: drop over the mouth and a tube of pore_length without a capsule",
+                 "instead of Q: drop over the mouths and the tube of the empty pore; it stays constant with "
+                 "flow.drive = \"pressure\", and only sets the constant flow rate otherwise",
                  measured(CAPSULE_AT(physical.pressure), dimension::pressure)}),
-      in_a_pore({"physical.pore_length", "of the tube that the pressure drives the liquid through",
+      in_a_pore({"physical.pore_length",
+                 "of the tube that the pressure drives the liquid through; instead of pore.exit_x with two "
+                 "mouths or flow.drive = \"pressure\"",
                  measured(CAPSULE_AT(physical.pore_length), dimension::length)}),
       of_motion(in_a_pore({"physical.capsule_velocity", "of the capsule, instead of Q, for `capsule fit`",
                            measured(CAPSULE_AT(physical.capsule_velocity), dimension::velocity)})),

@@ -1,4 +1,5 @@
 #include "case/physical.hpp"
+#include "case/empty_pore.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,20 +18,22 @@ double shear_modulus(const Case &physics) {
                                 : p.young_modulus.si / physics.membrane.law.young_modulus();
 }
 
-// Pressure drop of the empty pore, scaled with mu Q/(pi R_t^3).
-double empty_pressure_drop(const Case &physics) {
-  const double alpha = physics.pore.opening_angle_deg * pi / 180;
-  const double whole_hyperboloid =
-      3 * pi * std::pow(std::sin(alpha), 3) / (std::pow(1 - std::cos(alpha), 2) * (1 + 2 * std::cos(alpha)));
-  const double mouth = physics.pore.shape == PoreShape::hyperbolic ? whole_hyperboloid / 2 : 0;
-  return mouth + 8 * physics.physical.pore_length.si / physics.physical.tube_radius.si;
+// Whether the pore of the case is the one that the liquid is driven through. Otherwise it is a part of a longer one.
+bool is_whole_pore(const Case &physics) {
+  return physics.pore.shape == PoreShape::two_mouths || physics.flow.drive == DriveBy::pressure;
+}
+
+// Of the whole pore before its mouth.
+double tube_before_mouth(const PoreSpec &pore) {
+  return pore.shape == PoreShape::tube ? pore.entrance_distance : 0;
 }
 
 double flow_rate(const Case &physics) {
   const auto &p = physics.physical;
-  return p.flow_rate.si > 0 ? p.flow_rate.si
-                            : p.pressure.si * pi * std::pow(p.tube_radius.si, 3) /
-                                  (p.viscosity.si * empty_pressure_drop(physics));
+  return p.flow_rate.si > 0
+             ? p.flow_rate.si
+             : p.pressure.si * pi * std::pow(p.tube_radius.si, 3) /
+                   (p.viscosity.si * empty_pressure_drop(physics.pore, driven_tube_length(physics)));
 }
 
 Quantity density(const Case &physics) {
@@ -85,9 +88,9 @@ std::vector<PhysicalComplaint> physical_complaints(const Case &physics, bool of_
   }
   require_one(p.flow_rate, "physical.flow_rate", p.pressure, "physical.pressure");
   require_one(p.shear_modulus, "physical.shear_modulus", p.young_modulus, "physical.young_modulus");
-  if (p.pressure.si > 0 && p.pore_length.si == 0)
+  if (p.pressure.si > 0 && p.pore_length.si == 0 && !is_whole_pore(physics))
     complaints.push_back({"physical.pressure needs physical.pore_length", {"physical.pressure"}});
-  if (p.pressure.si == 0 && p.pore_length.si > 0)
+  if (p.pressure.si == 0 && p.pore_length.si > 0 && !is_whole_pore(physics))
     complaints.push_back(
         {"physical.pore_length means nothing without physical.pressure", {"physical.pore_length"}});
   return complaints;
@@ -101,6 +104,9 @@ std::vector<Derived> derived_values(const Case &physics, bool of_a_fit) {
     values.push_back({"flow.capillary_number",
                       p.viscosity.si * flow_rate(physics) / (pi * radius * radius * shear),
                       p.flow_rate.si > 0 ? "physical.flow_rate" : "physical.pressure"});
+  if (p.pore_length.si > 0 && is_whole_pore(physics))
+    values.push_back(
+        {"pore.exit_x", p.pore_length.si / radius - tube_before_mouth(physics.pore), "physical.pore_length"});
   if (p.capsule_radius.si > 0)
     values.push_back({"capsule.radius", p.capsule_radius.si / radius, "physical.capsule_radius"});
   if (p.bending_modulus.si > 0)
@@ -119,6 +125,19 @@ std::vector<Derived> derived_values(const Case &physics, bool of_a_fit) {
   for (Derived &derived : values)
     derived.value = rounded(derived.value);
   return values;
+}
+
+double driven_tube_length(const Case &physics) {
+  const double given = physics.physical.pore_length.si;
+  return given > 0 ? given / physics.physical.tube_radius.si
+                   : physics.pore.exit_x + tube_before_mouth(physics.pore);
+}
+
+std::string flow_rate_text(const Case &physics) {
+  const Quantity &pressure = physics.physical.pressure;
+  return fmt::format("Q = {:.6g} m3/s without a capsule{}", flow_rate(physics),
+                     pressure.si > 0 ? ", which " + quantity_text(pressure, dimension::pressure) + " drives"
+                                     : "");
 }
 
 double reynolds_number(const Case &physics) {

@@ -26,10 +26,14 @@ struct PhysicalComplaint {
 // To a fit of profiles the modulus is unknown, and the flow rate may be.
 std::vector<PhysicalComplaint> physical_complaints(const Case &physics, bool of_a_fit = false);
 // What follows from the physical keys of a case; where there are complaints, only which keys have a value. With a given
-// pressure the flow rate is that of the empty pore: 8 L/R_t of Poiseuille's flow over physical.pore_length, and for
-// the mouth half of what the whole hyperboloid of eq. 1 costs (exact for the hyperboloid; the pore's own mouth is
-// within a few percent of it).
+// pressure the flow rate is that of the empty pore (empty_pore.hpp). If the pressure stays constant, or the pore has two
+// mouths, its length is pore.exit_x.
 std::vector<Derived> derived_values(const Case &physics, bool of_a_fit = false);
+
+// Of the tube that a given pressure drives the liquid through, in tube radii.
+double driven_tube_length(const Case &physics);
+// "Q = 1.3e-12 m3/s without a capsule, which 500 Pa drives".
+std::string flow_rate_text(const Case &physics);
 
 // rho Q/(pi R_t mu) of the external liquid, of a case in physical units. The model has no inertia, which holds where this is
 // small.

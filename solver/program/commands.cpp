@@ -117,7 +117,9 @@ ExitCode show_case(const Arguments &arguments) {
         "# {}: {}\n{}{}\n", name_of(run_input, input),
         state.finished ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
                        : fmt::format("{}, about {} to go", unfinished_text(state), duration_text(left)),
-        has_physical(physics) ? fmt::format("# {}\n", reynolds_text(physics)) : "", resolved_toml(physics));
+        has_physical(physics) ? fmt::format("# {}\n# {}\n", flow_rate_text(physics), reynolds_text(physics))
+                              : "",
+        resolved_toml(physics));
   }
   fmt::print("# {}, {} finished, about {} of one core to go\n", counted(input.runs.size(), "run"), finished,
              duration_text(seconds_left));
