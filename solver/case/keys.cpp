@@ -270,6 +270,8 @@ std::vector<Key> physical_keys() {
       in_a_pore({"physical.membrane_dilatational_viscosity",
                  "of the membrane, instead of membrane.dilatational_viscosity",
                  measured(CAPSULE_AT(physical.dilatational_viscosity), dimension::surface_viscosity)}),
+      in_a_pore({"physical.resistivity", "of the liquid, rho: resistances come in ohm, too",
+                 measured(CAPSULE_AT(physical.resistivity), dimension::resistivity)}),
       of_motion(in_a_pore({"physical.density",
                            "of the external liquid, rho: for the Reynolds number that `capsule show` states",
                            measured(CAPSULE_AT(physical.density), dimension::density), any_number,

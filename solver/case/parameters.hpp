@@ -105,7 +105,8 @@ struct PhysicalSpec {
   Quantity capsule_velocity; // instead of the flow rate, for a fit
   Quantity shear_modulus, young_modulus, bending_modulus, capsule_radius, internal_viscosity;
   Quantity shear_viscosity, dilatational_viscosity;
-  Quantity density; // of water if it is not given; only for the Reynolds number
+  Quantity resistivity; // of the liquid
+  Quantity density;     // of water if it is not given; only for the Reynolds number
 };
 
 struct OutputSpec {

@@ -51,11 +51,11 @@ double rounded(double value) {
 
 bool has_physical(const Case &physics) {
   const auto &p = physics.physical;
-  return std::ranges::any_of(std::array{p.tube_radius, p.viscosity, p.flow_rate, p.pressure, p.pore_length,
-                                        p.capsule_velocity, p.shear_modulus, p.young_modulus,
-                                        p.bending_modulus, p.capsule_radius, p.internal_viscosity,
-                                        p.shear_viscosity, p.dilatational_viscosity, p.density},
-                             [](const Quantity &quantity) { return quantity.si > 0; });
+  return std::ranges::any_of(
+      std::array{p.tube_radius, p.viscosity, p.flow_rate, p.pressure, p.pore_length, p.capsule_velocity,
+                 p.shear_modulus, p.young_modulus, p.bending_modulus, p.capsule_radius, p.internal_viscosity,
+                 p.shear_viscosity, p.dilatational_viscosity, p.resistivity, p.density},
+      [](const Quantity &quantity) { return quantity.si > 0; });
 }
 
 std::vector<PhysicalComplaint> physical_complaints(const Case &physics, bool of_a_fit) {
@@ -81,6 +81,7 @@ std::vector<PhysicalComplaint> physical_complaints(const Case &physics, bool of_
     };
     refuse(p.pressure, "physical.pressure");
     refuse(p.pore_length, "physical.pore_length");
+    refuse(p.resistivity, "physical.resistivity");
     refuse(p.shear_modulus, "physical.shear_modulus");
     refuse(p.young_modulus, "physical.young_modulus");
     refuse(p.bending_modulus, "physical.bending_modulus");
@@ -93,6 +94,9 @@ std::vector<PhysicalComplaint> physical_complaints(const Case &physics, bool of_
   if (p.pressure.si == 0 && p.pore_length.si > 0 && !is_whole_pore(physics))
     complaints.push_back(
         {"physical.pore_length means nothing without physical.pressure", {"physical.pore_length"}});
+  if (p.resistivity.si > 0 && !physics.output.resistance)
+    complaints.push_back(
+        {"physical.resistivity means nothing without output.resistance = true", {"physical.resistivity"}});
   return complaints;
 }
 
@@ -163,7 +167,8 @@ Scales physical_scales(const Case &physics) {
           .time = pi * std::pow(radius, 3) / rate,
           .pressure = physics.physical.viscosity.si * rate / (pi * std::pow(radius, 3)),
           .tension = shear_modulus(physics),
-          .flow_rate = rate};
+          .flow_rate = rate,
+          .resistance = physics.physical.resistivity.si / (pi * radius)};
 }
 
 } // namespace capsule

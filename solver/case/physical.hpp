@@ -1,7 +1,8 @@
 #pragma once
 // A case in physical units: the dimensionless groups that follow from its quantities (section 2.2 of the paper), and the
 // scales that turn results back.
-//   length R_t, velocity Q/(pi R_t^2), time pi R_t^3/Q, pressure mu Q/(pi R_t^3), tension G, flow rate Q
+//   length R_t, velocity Q/(pi R_t^2), time pi R_t^3/Q, pressure mu Q/(pi R_t^3), tension G, flow rate Q,
+//   resistance rho/(pi R_t)
 // Everything is held in SI units. Throws nothing.
 #include "case/case.hpp"
 #include <string>
@@ -44,6 +45,7 @@ bool is_inertia_small(const Case &physics);
 
 struct Scales {
   double length = 1, velocity = 1, time = 1, pressure = 1, tension = 1, flow_rate = 1;
+  double resistance = 0; // unknown without the liquid's resistivity
 };
 Scales physical_scales(const Case &physics);
 

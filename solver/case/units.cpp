@@ -46,6 +46,10 @@ constexpr std::array units = {Unit{"m", 0, 0, dimension::length},
                               Unit{"mmH2O", 0, 0, dimension::pressure, 9.80665},
                               Unit{"cmH2O", 0, 0, dimension::pressure, 98.0665},
                               Unit{"P", -1, 0, dimension::viscosity},
+                              Unit{"ohm", 0, 0, dimension::resistance},
+                              Unit{"Ohm", 0, 0, dimension::resistance},
+                              Unit{"\u03a9", 0, 0, dimension::resistance}, // the Greek letter
+                              Unit{"\u2126", 0, 0, dimension::resistance}, // the ohm sign
                               Unit{"J", 0, 0, dimension::energy},
                               Unit{"erg", -7, 0, dimension::energy},
                               Unit{"kT", -23, 0, dimension::energy, 1.380649 * 298.15}}; // at 25 C
@@ -96,7 +100,9 @@ const std::vector<Kind> &kinds() {
       {dimension::density, "a density", "kg/m3", "1 g/cm3", {"kg/m3", "g/ml", "kg/l"}},
       {dimension::energy, "an energy", "J", "0.5 aJ", {"fJ", "J", "kT", "erg", "pN.um", "N.m"}},
       {dimension::velocity, "a velocity", "m/s", "1 mm/s", {"um/s", "m/s"}},
-      {dimension::time, "a time", "s", "1 s", {"ms", "min", "h"}}};
+      {dimension::time, "a time", "s", "1 s", {"ms", "min", "h"}},
+      {dimension::resistance, "a resistance", "ohm", "10 kohm", {"ohm", "Mohm"}},
+      {dimension::resistivity, "a resistivity", "ohm.m", "0.65 ohm.m", {"ohm m", "ohm.cm"}}};
   return table;
 }
 
@@ -196,6 +202,7 @@ struct UnitReader {
     product.of.length += exponent * unit.of.length;
     product.of.mass += exponent * unit.of.mass;
     product.of.time += exponent * unit.of.time;
+    product.of.current += exponent * unit.of.current;
   }
 
   // Whether all of it is units; if not, the rest begins with what is none.
@@ -348,7 +355,9 @@ std::string unit_text(const Dimension &of) {
   if (const Kind *kind = find_kind(of))
     return kind->si;
   // The kilogram is a gram with a prefix.
-  return (power_text("m", of.length) + power_text("kg", of.mass) + power_text("s", of.time)).substr(1);
+  return (power_text("m", of.length) + power_text("kg", of.mass) + power_text("s", of.time) +
+          power_text("A", of.current))
+      .substr(1);
 }
 
 std::string quantity_text(const Quantity &quantity, const Dimension &of) {

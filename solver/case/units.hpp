@@ -11,16 +11,16 @@
 
 namespace capsule {
 
-// Powers of metre, kilogram and second.
+// Powers of metre, kilogram, second and ampere.
 struct Dimension {
-  int length = 0, mass = 0, time = 0;
+  int length = 0, mass = 0, time = 0, current = 0;
   bool operator==(const Dimension &) const = default;
 };
 
 namespace dimension {
 constexpr Dimension length{1, 0, 0}, viscosity{-1, 1, -1}, flow_rate{3, 0, -1}, pressure{-1, 1, -2},
     density{-3, 1, 0}, tension{0, 1, -2}, surface_viscosity{0, 1, -1}, energy{2, 1, -2}, velocity{1, 0, -1},
-    time{0, 0, 1};
+    time{0, 0, 1}, resistance{2, 1, -3, -2}, resistivity{3, 1, -3, -2};
 } // namespace dimension
 
 struct Quantity {

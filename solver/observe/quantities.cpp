@@ -12,6 +12,7 @@ constexpr PhysicalUnit second{&Scales::time, dimension::time};
 constexpr PhysicalUnit metre{&Scales::length, dimension::length};
 constexpr PhysicalUnit metre_per_second{&Scales::velocity, dimension::velocity};
 constexpr PhysicalUnit pascal{&Scales::pressure, dimension::pressure};
+constexpr PhysicalUnit ohm{&Scales::resistance, dimension::resistance};
 constexpr PhysicalUnit newton_per_metre{&Scales::tension, dimension::tension};
 
 // What all of the membrane makes converges faster with the mesh than the stretches, which are local.
@@ -147,6 +148,7 @@ constexpr std::array quantities{
             "with `output.resistance`: electric resistance that the capsule adds to the pore, in rho/(pi "
             "R_t), that of a pore radius of empty tube; the liquid conducts, wall and membrane insulate",
         .value = &SeriesRow::resistance,
+        .unit = ohm,
         .error = ErrorEstimate::of_all,
         .agreement = tenth_of_value,
         .of_the_pore = true,
@@ -157,6 +159,7 @@ constexpr std::array quantities{
                          "the same by the paper's estimate, slices of a long conductor in series, with "
                          "the outermost radius where a concave end gives several",
                      .value = &SeriesRow::resistance_long_conductor,
+                     .unit = ohm,
                      .error = ErrorEstimate::of_all,
                      .agreement = tenth_of_value,
                      .of_the_pore = true,
@@ -195,6 +198,10 @@ constexpr std::array of_a_profile{
 
 std::string name_with_unit(const char *name, const PhysicalUnit &unit) {
   return fmt::format("{} [{}]", name, unit_text(unit.dimension));
+}
+
+bool has_scale(const std::optional<PhysicalUnit> &unit, const Scales &scales) {
+  return unit && scales.*unit->scale > 0;
 }
 
 bool is_reported(const ReportedQuantity &quantity, const SeriesRow &row) {

@@ -20,6 +20,9 @@ struct PhysicalUnit {
 // "length [m]".
 std::string name_with_unit(const char *name, const PhysicalUnit &unit);
 
+// Whether a case knows it: a quantity without a unit, or one whose scale no key tells, is not in the tables of SI units.
+bool has_scale(const std::optional<PhysicalUnit> &unit, const Scales &scales);
+
 // How the error of a quantity is estimated.
 enum class ErrorEstimate {
   none,

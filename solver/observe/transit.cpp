@@ -7,12 +7,16 @@
 namespace capsule {
 namespace {
 
+constexpr PhysicalUnit second{&Scales::time, dimension::time};
+constexpr PhysicalUnit ohm{&Scales::resistance, dimension::resistance};
+
 constexpr std::array quantities{
-    TransitQuantity{"time", "from `output.transit_from` to `output.transit_to`", &Transit::time},
-    TransitQuantity{"pulse_height", "the largest resistance that the capsule adds", &Transit::pulse_height},
-    TransitQuantity{"pulse_width", "time for which it exceeds half of that", &Transit::pulse_width},
-    TransitQuantity{"pulse_rise", "time in which it rises from 10 to 90 %", &Transit::pulse_rise},
-    TransitQuantity{"pulse_fall", "time in which it falls from 90 to 10 %", &Transit::pulse_fall}};
+    TransitQuantity{"time", "from `output.transit_from` to `output.transit_to`", &Transit::time, second},
+    TransitQuantity{"pulse_height", "the largest resistance that the capsule adds", &Transit::pulse_height,
+                    ohm},
+    TransitQuantity{"pulse_width", "time for which it exceeds half of that", &Transit::pulse_width, second},
+    TransitQuantity{"pulse_rise", "time in which it rises from 10 to 90 %", &Transit::pulse_rise, second},
+    TransitQuantity{"pulse_fall", "time in which it falls from 90 to 10 %", &Transit::pulse_fall, second}};
 
 using Series = std::vector<SeriesRow>;
 

@@ -2,6 +2,7 @@
 // What the passage of a pore with two mouths amounts to, as a cell transit analyzer sees it: how long it takes, and the
 // numbers of the pulse of the electric resistance. Times in pi R_t^3/Q, resistances in rho/(pi R_t). Throws nothing.
 #include "case/case.hpp"
+#include "observe/quantities.hpp"
 #include "observe/records.hpp"
 #include <limits>
 #include <optional>
@@ -24,6 +25,7 @@ struct TransitQuantity {
   const char *name;
   const char *meaning;
   double Transit::*value;
+  PhysicalUnit unit;
 };
 std::span<const TransitQuantity> transit_quantities();
 

@@ -27,19 +27,32 @@ Json to_json(const Value &value) {
       value);
 }
 
+// Of the change of the resistance over the empty pore's.
+Json relative_pulse_height(const Json &summary) {
+  const Json &height = summary.at("transit").at("pulse_height"), &empty = summary.at("empty_resistance");
+  return height.is_number() && empty.is_number() ? Json(height.get<double>() / empty.get<double>()) : Json();
+}
+
 // The values of a summary in SI units, by their name and unit.
 Json physical_json(const Case &physics, const Json &summary) {
   const Scales scales = physical_scales(physics);
-  Json json = Json::object();
-  const auto put = [&](const char *name, const PhysicalUnit &unit) {
-    if (const Json &value = summary.at(name); value.is_number())
-      json[name_with_unit(name, unit)] = value.get<double>() * scales.*unit.scale;
+  const auto put = [&](Json &table, const Json &values, const char *name, const PhysicalUnit &unit) {
+    if (const auto value = values.find(name);
+        value != values.end() && value->is_number() && has_scale(unit, scales))
+      table[name_with_unit(name, unit)] = value->get<double>() * scales.*unit.scale;
   };
+  Json json = Json::object();
   for (const ReportedQuantity &quantity : reported_quantities())
     if (quantity.unit)
-      put(quantity.name, *quantity.unit);
+      put(json, summary, quantity.name, *quantity.unit);
   for (const PeakQuantity &quantity : peak_quantities())
-    put(quantity.name, quantity.unit);
+    put(json, summary, quantity.name, quantity.unit);
+  put(json, summary, "empty_resistance", {&Scales::resistance, dimension::resistance});
+  if (const auto transit = summary.find("transit"); transit != summary.end()) {
+    json["transit"] = Json::object();
+    for (const TransitQuantity &quantity : transit_quantities())
+      put(json["transit"], *transit, quantity.name, quantity.unit);
+  }
   json[fmt::format("tension scale [{}]", unit_text(dimension::tension))] = scales.tension;
   return json;
 }
@@ -72,10 +85,12 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   if (const auto transit = moved ? transit_of(physics, series) : std::nullopt)
     for (const TransitQuantity &quantity : transit_quantities())
       json["transit"][quantity.name] = finite_or_null((*transit).*quantity.value);
-  if (in_physical_units(physics, outcome))
-    json["physical"] = physical_json(physics, json);
   for (const auto &[quantity, value] : outcome.further)
     json[quantity] = finite_or_null(value);
+  if (json.contains("transit") && json.contains("empty_resistance"))
+    json["transit"]["relative_pulse_height"] = relative_pulse_height(json);
+  if (in_physical_units(physics, outcome))
+    json["physical"] = physical_json(physics, json);
   if (!outcome.along.empty()) {
     json["along"] = outcome.along;
     json["folds"] = Json::array();

@@ -49,7 +49,8 @@ std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow
   const Scales scales = physical_scales(physics);
   std::vector<Column> columns;
   for (const ReportedQuantity &quantity : reported_quantities())
-    if (quantity.unit)
+    if (has_scale(quantity.unit, scales) &&
+        is_reported(quantity, series.empty() ? SeriesRow{} : series.front()))
       columns.push_back(
           {name_with_unit(quantity.name, *quantity.unit), quantity.value, scales.*quantity.unit->scale});
   return csv_of(columns, series);

@@ -140,6 +140,17 @@ BOOST_AUTO_TEST_CASE(the_length_of_the_whole_pore) {
   BOOST_TEST(contains(flow_rate_text(only_run(driven)), "e-14 m3/s without a capsule, which 20 Pa drives"));
 }
 
+// rho/(pi R_t), of a pore radius of empty tube.
+BOOST_AUTO_TEST_CASE(the_liquid_s_resistivity_is_the_scale_of_resistances) {
+  BOOST_TEST(physical_scales(only_run(laboratory)).resistance == 0); // unknown
+  const std::string conducting = "output.resistance = true\n" + laboratory;
+  BOOST_TEST(physical_scales(only_run(conducting, {"physical.resistivity=65 ohm.cm"})).resistance ==
+                 0.65 / (std::numbers::pi * 5e-6),
+             tolerance);
+  BOOST_TEST(contains(complaint(laboratory, {"physical.resistivity=0.65 ohm.m"}),
+                      "--set:1:22: error: physical.resistivity means nothing without output.resistance"));
+}
+
 BOOST_AUTO_TEST_CASE(the_resolved_case_gives_the_same_case_again) {
   const Case physics = only_run(laboratory);
   const std::string resolved = resolved_toml(physics);

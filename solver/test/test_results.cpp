@@ -162,6 +162,7 @@ BOOST_AUTO_TEST_CASE(results_in_physical_units) {
   physics.physical.viscosity = {1e-3};
   physics.physical.flow_rate = {1e-13};
   physics.physical.shear_modulus = {2e-5};
+  physics.physical.resistivity = {0.65};
   Checkpoint last = random_checkpoint();
   SeriesRow &end = last.series.back();
   end.time = 2;
@@ -174,18 +175,23 @@ BOOST_AUTO_TEST_CASE(results_in_physical_units) {
   end.max_tension = 0.3;
   end.S_at_max_area_stretch = 0.4;
   end.S_at_max_tension = 0.5;
+  end.resistance = 1.5;
+  end.resistance_long_conductor = 1.2;
   write_results(directory.path, physics, outcome_with(last), {});
   const double velocity = 1e-13 / (std::numbers::pi * 25e-12);
-  const std::map<std::string, double> by_hand = {{"time [s]", 2 * 5e-6 / velocity},
-                                                 {"x_g [m]", 15e-6},
-                                                 {"v_g [m/s]", 1.5 * velocity},
-                                                 {"pressure_drop [Pa]", 4 * 1e-3 * velocity / 5e-6},
-                                                 {"min_film [m]", 0.5e-6},
-                                                 {"length [m]", 8.5e-6},
-                                                 {"flow_rate [m3/s]", 0.7e-13},
-                                                 {"max_tension [N/m]", 0.3 * 2e-5},
-                                                 {"S_at_max_area_stretch [m]", 2e-6},
-                                                 {"S_at_max_tension [m]", 2.5e-6}};
+  const std::map<std::string, double> by_hand = {
+      {"time [s]", 2 * 5e-6 / velocity},
+      {"x_g [m]", 15e-6},
+      {"v_g [m/s]", 1.5 * velocity},
+      {"pressure_drop [Pa]", 4 * 1e-3 * velocity / 5e-6},
+      {"min_film [m]", 0.5e-6},
+      {"length [m]", 8.5e-6},
+      {"flow_rate [m3/s]", 0.7e-13},
+      {"max_tension [N/m]", 0.3 * 2e-5},
+      {"S_at_max_area_stretch [m]", 2e-6},
+      {"S_at_max_tension [m]", 2.5e-6},
+      {"resistance [ohm]", 1.5 * 0.65 / (std::numbers::pi * 5e-6)},
+      {"resistance_long_conductor [ohm]", 1.2 * 0.65 / (std::numbers::pi * 5e-6)}};
   const auto lines = lines_of(directory.path / "series_physical.csv");
   BOOST_REQUIRE(lines.size() == 6u);
   const auto summary = read_json(directory.path / "summary.json").value().at("physical");

@@ -10,9 +10,9 @@ using namespace capsule;
 namespace {
 
 const std::vector<Dimension> named = {
-    dimension::length,  dimension::viscosity, dimension::flow_rate,         dimension::pressure,
-    dimension::tension, dimension::energy,    dimension::surface_viscosity, dimension::velocity,
-    dimension::time};
+    dimension::length,  dimension::viscosity,  dimension::flow_rate,         dimension::pressure,
+    dimension::tension, dimension::energy,     dimension::surface_viscosity, dimension::velocity,
+    dimension::time,    dimension::resistance, dimension::resistivity};
 
 double si(const std::string &text, const Dimension &of) {
   const auto read = read_quantity(text, of);
@@ -52,6 +52,19 @@ BOOST_AUTO_TEST_CASE(flow_rates) {
                            "360 nl/h", "1e5 um^3/s", "1e5 um3/s", "1e5 \u00b5m\u00b3/s",
                            "1e5 \u00b5m\u00b3 s\u207b\u00b9", "1e-4 mm^3/s", "1e-13 m3/s", "1e5 um.um.um/s"})
     BOOST_TEST(si(text, dimension::flow_rate) == 1e-13, text);
+}
+
+BOOST_AUTO_TEST_CASE(resistances_and_resistivities) {
+  for (const char *text :
+       {"16.5 kohm", "16.5 kOhm", "16500 ohm", "0.0165 Mohm", "16.5 k\u03a9", "16.5 k\u2126"})
+    BOOST_TEST(si(text, dimension::resistance) == 16500, text);
+  for (const char *text : {"0.65 ohm.m", "65 ohm.cm", "65 ohm cm", "0.65 \u03a9\u00b7m", "6.5e-4 kohm.m"})
+    BOOST_TEST(si(text, dimension::resistivity) == 0.65, text);
+  BOOST_TEST(refused("0.65 ohm", dimension::resistivity).why ==
+             "'0.65 ohm' is a resistance, not a resistivity");
+  BOOST_TEST(refused("0.65 omh.m", dimension::resistivity).meant == "0.65 ohm.m");
+  BOOST_TEST(refused("0.65 ohm2", dimension::resistivity).why ==
+             "'0.65 ohm2' is a quantity in m4.kg2.s-6.A-4, not a resistivity");
 }
 
 BOOST_AUTO_TEST_CASE(pressures_tensions_energies) {
