@@ -61,6 +61,14 @@ hint "did you mean 'capsule.radius'[?]" 'radius = 0.9'
 hint "did you mean 'membrane.law'[?]" "flow.law = 'skalak'"
 printf 'flow.type = "extension"\nuntil.time = 1\n%s\noutput.resistance = true\n' "$good" | sed /radius/d |
   bad '5:21: error: output.resistance means nothing to flow.type = "extension"'
+printf 'flow.type = "extension"\nuntil.time = 1\n%s\nflow.drive = "pressure"\n' "$good" | sed /radius/d |
+  bad '5:14: error: flow.drive means nothing to flow.type = "extension"'
+echo "$good
+until.tension = 0" | bad '4:17: error: until.tension = 0 is out of range'
+echo "$good
+until.tension = -0.1" | bad '4:17: error: until.tension = -0.1 is out of range'
+echo "$good
+until.area_stretch = 1" | bad '4:22: error: until.area_stretch = 1 is out of range'
 echo "$good
 output.resistance = 1" | bad '4:21: error: output.resistance must be true or false, not 1'
 printf '%s\noutput.resistance = true\nnumerics = "paper"\n' "$good" |
@@ -146,6 +154,14 @@ echo "$physical" | sed 's/5 um/5 umm/' | bad "2:15: error: physical.tube_radius:
 echo "$physical" | sed 's/nL.s/nL/' | bad "4:13: error: physical.flow_rate: '0.1 nL' is a quantity in m3, not a flow rate"
 printf '%s\nshear_viscosity = 200\n' "$physical" | sed '/^flow_rate/a membrane_shear_viscosity = "200 mPa.s"' |
   bad "5:28: error: physical.membrane_shear_viscosity: '200 mPa.s' is a viscosity, not a surface viscosity"
+for typed in 'resistivity = "0.65 ohm.m"' 'pore_length = "1 mm"'; do
+  printf '%s\n' "$physical" | sed "/^flow_rate/a $typed" | bad '5:[0-9]*: error: physical.[a-z_]* means nothing without '
+done
+printf 'output.resistance = true\n%s\n' "$physical" | sed '/^flow_rate/a resistivity = "0.65 ohm"' |
+  bad "6:15: error: physical.resistivity: '0.65 ohm' is a resistance, not a resistivity"
+echo "$physical" | sed 's/^flow_rate.*/pressure = "20 Pa"/' | bad '4:12: error: physical.pressure needs physical.pore_length'
+printf 'pore.shape = "two-mouths"\n%s\n' "$physical" | sed 's/^flow_rate.*/pressure = "20 Pa"\npore_length = "8 um"/' |
+  bad '6:15: error: physical.pressure sets no flow rate in a pore of 1.6 radii'
 echo "$physical" | sed '/viscosity/d' | bad "2:15: error: missing key 'physical.viscosity'"
 echo "$physical" | sed 's/tube_radius/tube_radus/' | bad "2:1: error: unknown key 'physical.tube_radus'"
 rm -r bad
