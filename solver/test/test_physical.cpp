@@ -130,9 +130,9 @@ BOOST_AUTO_TEST_CASE(the_length_of_the_whole_pore) {
   BOOST_TEST(only_run(driven).pore.exit_x == 15);
   BOOST_TEST(only_run(driven, {"flow.drive=pressure"}).pore.exit_x == 20);
   BOOST_TEST(only_run(driven, {"pore.shape=two-mouths"}).pore.exit_x == 20);
-  BOOST_TEST(only_run(driven, {"pore.shape=tube", "flow.drive=pressure", "pore.entrance_distance=8",
+  BOOST_TEST(only_run(driven, {"pore.shape=tube", "flow.drive=pressure", "pore.entrance_distance=5",
                                "capsule.start_x=2"})
-                 .pore.exit_x == 12);
+                 .pore.exit_x == 15);
   BOOST_TEST(contains(complaint(driven, {"pore.shape=two-mouths", "pore.exit_x=15"}),
                       "pore.exit_x = 15, but physical.pore_length makes it 20"));
   BOOST_TEST(contains(complaint(replaced(driven, "100 um", "8 um")),

@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_quantity_is_refused) {
       {"5 10 um", "'5 10 um': a power of ten is written as in 5e-6"},
       {"5\u00d710\u207b\u2076 m", "'5\u00d710\u207b\u2076 m': a power of ten is written as in 5e-6"},
       {"5 x 10^-6 m", "'5 x 10^-6 m': a power of ten is written as in 5e-6"},
-      {"5 \u2126", "unknown unit '\u2126' in '5 \u2126'"},
+      {"5 \u2127", "unknown unit '\u2127' in '5 \u2127'"},
       {"-5 um", "'-5 um' is not above 0"},
       {"0 um", "'0 um' is not above 0"},
       {"nan um", "'nan um' is not above 0"},
