@@ -1,0 +1,369 @@
+// Fits of synthetic images: steady states of known capsules, points along their outlines at the distance of a pixel, .01 R_t,
+// with a noise of half of one, seeded. How far the fits are from the truth, how often their 90 % intervals contain it, how
+// often the law is right; what a velocity adds, what a silhouette loses, and what wrong assumptions do.
+#include "study.hpp"
+#include "base/csv.hpp"
+#include "base/failure.hpp"
+#include "case/case.hpp"
+#include "case/key_path.hpp"
+#include "fit/fit.hpp"
+#include "law/generalised_hooke.hpp"
+#include "law/neo_hookean.hpp"
+#include "law/skalak.hpp"
+#include "steady/newton.hpp"
+#include "steady/steady_state.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <random>
+#include <sstream>
+
+using namespace capsule;
+
+namespace {
+
+constexpr double pixel = 0.01;
+constexpr int trials = 200, trials_of_parts = 40;
+constexpr const char *radius_key = "capsule.radius", *flow_key = "flow.capillary_number",
+                     *inflation_key = "capsule.inflation";
+
+// Three laws of equal small-strain moduli.
+std::vector<MembraneLaw> three_laws() {
+  return {neo_hookean, {skalak, {1}}, {generalised_hooke, {0.5}}};
+}
+
+struct Truth {
+  Case input;
+  SteadyState state;
+  bool parachute = false; // the rear is concave
+};
+
+// A random capsule that has a steady state.
+Truth random_truth(unsigned seed) {
+  std::mt19937_64 random(seed);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (;;) {
+    Truth truth;
+    truth.input.membrane.law = three_laws()[seed % 3];
+    truth.input.membrane.bending_ratio = 1e-4;
+    truth.input.capsule.radius = between(0.7, 1.05);
+    truth.input.flow.capillary_number = between(0.02, 0.12);
+    truth.input.capsule.inflation = between(0, 0.1);
+    try {
+      const SteadyState found = find_steady(truth.input, {}, {});
+      truth.state = on_mesh(truth.input, 88, found);
+    } catch (const NumericsFailure &) { // beyond the fold
+      continue;
+    }
+    const Eigen::Index n = truth.state.system->nodes();
+    truth.parachute =
+        truth.state.unknowns.head(n).minCoeff() <
+        truth.state.system->membrane().basis.even(Vector::Zero(1), 0, truth.state.unknowns.head(n))[0] - 1e-3;
+    return truth;
+  }
+}
+
+// Upper and lower half of the outline, the points in their order.
+Contour image_of(const SteadyState &state, double noise, OutlineSeen seen, unsigned seed) {
+  std::mt19937_64 random(seed + 1000);
+  std::normal_distribution<double> error(0, noise);
+  const Eigen::Index n = state.system->nodes();
+  const MeridianBasis &basis = state.system->membrane().basis;
+  const Vector zeta = Vector::LinSpaced(6001, 0, std::numbers::pi);
+  const Vector x = basis.even(zeta, 0, state.unknowns.head(n));
+  const Vector r = basis.odd(zeta, 0, state.unknowns.segment(n, n));
+  std::vector<double> xs, rs;
+  const auto add = [&](double at_x, double at_r, double side) {
+    xs.push_back(at_x + error(random) + 7.3);
+    rs.push_back(std::abs(side * at_r + error(random)));
+  };
+  Eigen::Index first = 0;
+  if (seen == OutlineSeen::silhouette)
+    x.minCoeff(&first);
+  for (const double side : {1.0, -1.0}) {
+    for (double at = pixel / 2; first > 0 && at < r[first]; at += pixel)
+      add(x[first], at, side);
+    double way = 0, next = pixel / 2;
+    for (Eigen::Index k = first + 1; k < zeta.size(); ++k) {
+      way += std::hypot(x[k] - x[k - 1], r[k] - r[k - 1]);
+      if (way < next)
+        continue;
+      next += pixel;
+      add(x[k], r[k], side);
+    }
+  }
+  Contour contour;
+  contour.file = "image";
+  contour.x = Eigen::Map<const Vector>(xs.data(), std::ssize(xs));
+  contour.r = Eigen::Map<const Vector>(rs.data(), std::ssize(rs));
+  return contour;
+}
+
+// What the fit knows: everything but size, strength of the flow and pre-stress.
+Case known(const Truth &truth, const std::vector<std::string> &unknowns,
+           const std::vector<std::string> &laws) {
+  Case input = truth.input;
+  input.membrane.law.all_values() = three_laws()[0].all_values();
+  for (const MembraneLaw &law : three_laws())
+    for (std::size_t i = 0; i < law.all_values().size(); ++i)
+      if (law.all_values()[i] != three_laws()[0].all_values()[i])
+        input.membrane.law.all_values()[i] = law.all_values()[i];
+  for (const std::string &key : unknowns)
+    input = with_number(input, key, key == inflation_key ? 0.02 : 0);
+  input.fit.unknowns = unknowns;
+  input.fit.laws = laws;
+  return input;
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const MembraneLaw &law : three_laws())
+    names.emplace_back(law.law().name);
+  return names;
+}
+
+// One fit beside the truth: relative errors of a and G, error of the inflation, and which intervals contain it.
+std::string row_of(const Truth &truth, const Case &input, const Contour &contour) {
+  const double began = cpu_seconds();
+  FitStarts starts;
+  FitResult fit;
+  try {
+    fit = fit_contours(input, std::span(&contour, 1), starts, {});
+  } catch (const NumericsFailure &failure) {
+    return fmt::format("failed,,,,,,,,,,,{:.3g}", cpu_seconds() - began);
+  }
+  const double once = cpu_seconds() - began;
+  double errors[3] = {0, 0, 0}, bars[3] = {0, 0, 0};
+  int inside[3] = {-1, -1, -1};
+  const char *names[3] = {radius_key, flow_key, inflation_key};
+  for (int k = 0; k < 3; ++k)
+    for (const FittedValue &value : fit.values)
+      if (value.name == names[k]) {
+        const double true_value = number(names[k], truth.input);
+        errors[k] = k == 0   ? value.value / true_value - 1
+                    : k == 1 ? true_value / value.value - 1 // of G
+                             : value.value - true_value;
+        bars[k] = k == 2 ? value.standard_error : value.standard_error / value.value;
+        inside[k] = value.low <= true_value && true_value <= value.high ? 1 : 0;
+      }
+  return fmt::format("{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{},{},{},{:.4g},{:.3g}", fit.law,
+                     errors[0], errors[1], errors[2], bars[0], bars[1], bars[2], inside[0], inside[1],
+                     inside[2], fit.noise, once);
+}
+
+constexpr const char *row_head = "law,size_error,modulus_error,inflation_error,size_bar,modulus_bar,"
+                                 "inflation_bar,size_inside,modulus_inside,"
+                                 "inflation_inside,noise,cpu_seconds";
+
+std::string truth_text(const Truth &truth, unsigned seed) {
+  return fmt::format("{},{},{:.5f},{:.5f},{:.5f},{}", seed, truth.input.membrane.law.law().name,
+                     truth.input.capsule.radius, truth.input.flow.capillary_number,
+                     truth.input.capsule.inflation, truth.parachute ? 1 : 0);
+}
+constexpr const char *truth_head = "seed,true_law,radius,capillary_number,inflation,parachute";
+
+const std::vector<std::string> three_unknowns{radius_key, flow_key, inflation_key};
+
+// All that is tried on one capsule: rows "variant,<truth>,<fit>".
+std::string trial(unsigned seed) {
+  const Truth truth = random_truth(seed);
+  const std::string true_law = truth.input.membrane.law.law().name;
+  const double began = cpu_seconds();
+  find_steady(truth.input, {}, {});
+  const double steady_seconds = cpu_seconds() - began;
+  std::string text;
+  const auto add = [&](const std::string &variant, const Case &input, const Contour &contour) {
+    text += fmt::format("{},{},{},{:.3g}\n", variant, truth_text(truth, seed), row_of(truth, input, contour),
+                        steady_seconds);
+  };
+  const Contour image = image_of(truth.state, pixel / 2, OutlineSeen::meridian, seed);
+  const Case own = known(truth, three_unknowns, {true_law});
+  add("laws", known(truth, three_unknowns, law_names()), image);
+  add("law known", own, image);
+  if (seed >= trials_of_parts)
+    return text;
+  for (const double noise : {0.25, 1.0, 2.0})
+    add(fmt::format("noise {}", noise), own,
+        image_of(truth.state, noise * pixel, OutlineSeen::meridian, seed));
+  Case seen = own;
+  seen.fit.outline = OutlineSeen::silhouette;
+  const Contour outline = image_of(truth.state, pixel / 2, OutlineSeen::silhouette, seed);
+  add("silhouette", seen, outline);
+  std::mt19937_64 random(seed + 5000);
+  const double speed = truth.state.unknowns[2 * truth.state.system->nodes()] *
+                       (1 + 0.01 * std::normal_distribution<double>()(random));
+  Contour with_velocity = image;
+  with_velocity.velocity = speed;
+  add("velocity", own, with_velocity);
+  with_velocity = outline;
+  with_velocity.velocity = speed;
+  add("silhouette and velocity", seen, with_velocity);
+  Case no_prestress = known(truth, {radius_key, flow_key}, {true_law});
+  no_prestress.capsule.inflation = 0;
+  add("no pre-stress", no_prestress, image);
+  Case no_bending = own;
+  no_bending.membrane.bending_ratio = 1e-3;
+  add("ten times the bending", no_bending, image);
+  for (const std::string &law : law_names())
+    if (law != true_law)
+      add("as " + law, known(truth, three_unknowns, {law}), image);
+  return text;
+}
+
+// The evidence for the true one of two laws at a flow, a = 0.9, inflation 3 %, with the inflation known or not.
+std::string evidence(double flow, bool prestress_known) {
+  Truth truth;
+  truth.input.membrane.law = neo_hookean;
+  truth.input.membrane.bending_ratio = 1e-4;
+  truth.input.capsule.radius = 0.9;
+  truth.input.flow.capillary_number = flow;
+  truth.input.capsule.inflation = 0.03;
+  truth.state = on_mesh(truth.input, 88, find_steady(truth.input, {}, {}));
+  Case input = known(truth, prestress_known ? std::vector<std::string>{radius_key, flow_key} : three_unknowns,
+                     {"neo-hookean", "skalak"});
+  if (prestress_known)
+    input.capsule.inflation = 0.03;
+  const Contour image = image_of(truth.state, pixel / 2, OutlineSeen::meridian, 77);
+  input.fit.noise = pixel / 2;
+  FitStarts starts;
+  const FitResult fit = fit_contours(input, std::span(&image, 1), starts, {});
+  double difference = 0;
+  for (const Candidate &candidate : fit.candidates)
+    difference += (candidate.law == "skalak" ? 1 : -1) * candidate.aic;
+  return fmt::format("{},{},{}\n", flow, prestress_known ? 1 : 0, difference);
+}
+
+struct Row {
+  std::string variant, true_law, law;
+  double flow, size, modulus, inflation, seconds, steady_seconds;
+  int parachute, inside[3];
+};
+
+std::vector<Row> rows_of(const std::string &text) {
+  std::vector<Row> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::vector<std::string> f = split_csv(line);
+    if (f[7] == "failed") {
+      rows.push_back({f[0], f[2], f[7], std::stod(f[4]), 1, 1, 1, 0, 0, std::stoi(f[6]), {0, 0, 0}});
+      continue;
+    }
+    rows.push_back({f[0],
+                    f[2],
+                    f[7],
+                    std::stod(f[4]),
+                    std::stod(f[8]),
+                    std::stod(f[9]),
+                    std::stod(f[10]),
+                    std::stod(f[18]),
+                    std::stod(f[19]),
+                    std::stoi(f[6]),
+                    {std::stoi(f[14]), std::stoi(f[15]), std::stoi(f[16])}});
+  }
+  return rows;
+}
+
+double quantile(std::vector<double> values, double part) {
+  std::ranges::sort(values);
+  return values.empty() ? 0 : values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+}
+
+struct Spread {
+  double median, p95, bias; // of the absolute value; the median itself
+};
+Spread spread_of(const std::vector<Row> &rows, double Row::*value) {
+  std::vector<double> sizes, signed_values;
+  for (const Row &row : rows) {
+    sizes.push_back(std::abs(row.*value));
+    signed_values.push_back(row.*value);
+  }
+  return {quantile(sizes, 0.5), quantile(sizes, 0.95), quantile(signed_values, 0.5)};
+}
+
+bool study(const std::string &directory, unsigned jobs) {
+  std::vector<TextTask> tasks;
+  for (unsigned seed = 0; seed < trials; ++seed)
+    tasks.push_back({fmt::format("trial-{}", seed), [seed] { return trial(seed); }});
+  std::vector<double> flows;
+  for (int k = 2; k <= 10; ++k)
+    flows.push_back(0.01 * k);
+  for (const double flow : flows)
+    for (const bool prestress_known : {false, true})
+      tasks.push_back({fmt::format("evidence-{:.2f}-{}", flow, prestress_known),
+                       [flow, prestress_known] { return evidence(flow, prestress_known); }});
+  const std::vector<std::string> texts = make_all(directory, jobs, tasks);
+  std::string all, laws_apart;
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    (i < trials ? all : laws_apart) += texts[i];
+  write_atomically(directory + "/trials.csv",
+                   fmt::format("variant,{},{},steady_seconds\n", truth_head, row_head) + all);
+  write_atomically(directory + "/laws.csv", "capillary_number,inflation_known,aic_difference\n" + laws_apart);
+
+  const std::vector<Row> rows = rows_of(all);
+  const auto of = [&](const std::string &variant, auto &&wanted) {
+    std::vector<Row> found;
+    for (const Row &row : rows)
+      if (row.variant == variant && wanted(row))
+        found.push_back(row);
+    return found;
+  };
+  const auto any = [](const Row &) { return true; };
+  Table table(
+      "variant,fits,size_median,size_95,size_bias,modulus_median,modulus_95,modulus_bias,inflation_median,"
+      "inflation_95,inflation_bias");
+  std::vector<std::string> variants;
+  for (const Row &row : rows)
+    if (std::ranges::find(variants, row.variant) == variants.end())
+      variants.push_back(row.variant);
+  for (const std::string &variant : variants) {
+    const std::vector<Row> here = of(variant, any);
+    const Spread size = spread_of(here, &Row::size), modulus = spread_of(here, &Row::modulus),
+                 inflation = spread_of(here, &Row::inflation);
+    table.add(fmt::format("{},{},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g}", variant,
+                          here.size(), size.median, size.p95, size.bias, modulus.median, modulus.p95,
+                          modulus.bias, inflation.median, inflation.p95, inflation.bias));
+  }
+  table.write(directory + "/summary.csv");
+
+  const std::vector<Row> own = of("law known", any), free = of("laws", any);
+  const std::vector<Row> parachutes = of("law known", [](const Row &row) { return row.parachute == 1; });
+  const std::vector<Row> strong = of("laws", [](const Row &row) { return row.flow >= 0.06; });
+  const auto right = std::ranges::count_if(strong, [](const Row &row) { return row.law == row.true_law; });
+  const Spread size = spread_of(own, &Row::size), modulus = spread_of(parachutes, &Row::modulus),
+               inflation = spread_of(own, &Row::inflation);
+  bool holds = true;
+  const auto claim = [&](bool good, const std::string &text) { holds = check(good, text) && holds; };
+  claim(size.median <= 1e-3,
+        fmt::format("median error of the size {:.3g} %, of {} capsules; Quesada et al. .2 %",
+                    100 * size.median, own.size()));
+  claim(modulus.median <= 1e-2,
+        fmt::format("median error of G {:.3g} % of {} parachutes, 95 % below {:.3g} %; Quesada et al. 2.7 %",
+                    100 * modulus.median, parachutes.size(), 100 * modulus.p95));
+  claim(inflation.median <= 5e-3, fmt::format("median error of the inflation {:.3g}, 95 % below {:.3g}",
+                                              inflation.median, inflation.p95));
+  claim(static_cast<double>(right) >= 0.95 * static_cast<double>(strong.size()),
+        fmt::format("the law is right in {} of {} capsules with eps >= .06", right, strong.size()));
+  const char *names[3] = {"size", "G", "inflation"};
+  for (int k = 0; k < 3; ++k) {
+    const auto inside = std::ranges::count_if(own, [&](const Row &row) { return row.inside[k] == 1; });
+    const double share = static_cast<double>(inside) / static_cast<double>(own.size());
+    claim(share >= 0.85 && share <= 0.95,
+          fmt::format("the 90 % interval of {} contains the truth in {:.1f} %", names[k], 100 * share));
+  }
+  std::vector<double> ratios;
+  for (const Row &row : own)
+    ratios.push_back(row.seconds / row.steady_seconds);
+  claim(quantile(ratios, 0.5) <= 10,
+        fmt::format("a fit from nothing costs {:.3g} times a steady state found from nothing (median)",
+                    quantile(ratios, 0.5)));
+  return holds;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  return study_main(argc, argv, study);
+}
