@@ -73,6 +73,15 @@ echo "$good
 output.resistance = 1" | bad '4:21: error: output.resistance must be true or false, not 1'
 printf '%s\noutput.resistance = true\nnumerics = "paper"\n' "$good" |
   bad '4:21: error: numerics = "paper" computes no resistance'
+several=$(printf '%s\npore.shape = "tube"\npore.entrance_distance = 8' "$good")
+printf '%s\ncapsule.start_x = [0, -3, -6]\nmembrane.bending_ratio = [0, 1]\n' "$several" |
+  bad '7:26: error: membrane.bending_ratio has 2 values for 3 capsules'
+printf '%s\ncapsule.start_x = [0, -1]\n' "$several" | bad '6:19: error: capsules 1 and 2 overlap at their start'
+printf '%s\ncapsule.start_x = [0, 3]\n' "$several" | bad '6:19: error: capsule 2 starts before the one that is to lead it'
+printf '%s\ncapsule.start_x = [0, "-3"]\n' "$several" | bad '6:19: error: capsule.start_x must be a number'
+printf '%s\nuntil.last_x_g = 3\n' "$several" | bad '6:18: error: until.last_x_g is of several capsules'
+printf '%s\ncapsule.start_x = [0, -3]\noutput.resistance = true\n' "$several" |
+  bad '7:21: error: the resistance of several capsules is not computed'
 echo "$good
 flow.period = 3" | bad '4:15: error: an infinite train is computed as a steady state only'
 printf 'flow.type = "extension"\nuntil.time = 1\n%s\nflow.period = 3\n' "$good" | sed /radius/d |
@@ -227,6 +236,8 @@ expect 2 '^--set:1:1: error: expected key=value' "$capsule" run file.toml --set 
 expect 2 '^--set:1:22: error: flow.viscosity_ratio = -1' "$capsule" run file.toml --set flow.viscosity_ratio=-1
 expect 2 '^--set:1:12: error: steady states are computed at a given flow rate' \
   "$capsule" steady file.toml --set flow.drive=pressure
+expect 2 '^--set:1:17: error: a steady state is of one capsule, or of a train of equal ones' \
+  "$capsule" steady file.toml --set "capsule.start_x=[1, -3]"
 expect 2 '^--set:1:13: error: flow.period = 0.9 of the tube holds less than one capsule' \
   "$capsule" steady file.toml --set flow.period=0.9
 expect 2 "^error: no branch along 'flow.period': the case has no train" \

@@ -1,6 +1,8 @@
 #pragma once
 // A case: the physics and numerics of one run, complete and validated.
 #include "case/parameters.hpp"
+#include <string>
+#include <vector>
 
 namespace capsule {
 
@@ -20,6 +22,12 @@ struct Case {
   PhysicalSpec physical;
   OutputSpec output;
   FitSpec fit;
+
+  // The capsules behind this one, the nearest first, each as a case of its own: the same scene with that capsule alone.
+  std::vector<Case> followers;
 };
+
+// Every capsule as a case of its own, the leading one first. They refer to the case.
+std::vector<const Case *> capsules_of(const Case &physics);
 
 } // namespace capsule

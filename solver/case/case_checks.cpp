@@ -4,10 +4,12 @@
 #include "case/empty_pore.hpp"
 #include "case/keys.hpp"
 #include "case/physical.hpp"
+#include "case/value_lists.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -127,6 +129,7 @@ struct Checks {
                                   half_width, number_text(x_0)));
   }
 
+  // Of the leading capsule.
   void check_end() {
     const Case &c = physics;
     if (c.until.x_g && *c.until.x_g <= c.capsule.start_x)
@@ -287,7 +290,8 @@ struct Checks {
     } else if (c.pore.shape != PoreShape::none) {
       check_reservoirs();
       check_start();
-      check_end();
+      if (chosen.capsule == 0)
+        check_end();
     }
     check_burst();
     for (const double t : c.output.profiles_at_time)
@@ -302,6 +306,64 @@ struct Checks {
 
 void check_together(const Chosen &chosen, const Case &physics, const Task &task) {
   Checks{chosen, physics}.check(task);
+}
+
+void check_capsules(const Chosen &chosen, const Case &physics, const Task &task) {
+  if (physics.followers.empty()) {
+    if (physics.until.last_x_g)
+      chosen.complain({"until.last_x_g"}, "until.last_x_g is of several capsules, and there is one",
+                      "write until.x_g");
+    return;
+  }
+  // The first list says that there are several.
+  std::vector<std::string> lists;
+  for (const Key &key : keys())
+    if (const GivenValue *given = chosen.given(key.name);
+        key.of_each_capsule && given != nullptr && entries_of(given->value).size() > 1)
+      lists.push_back(key.name);
+  const std::vector<const Case *> capsules = capsules_of(physics);
+  if (!task.motion)
+    chosen.complain({"capsule.start_x", flow_key},
+                    "a steady state is of one capsule, or of a train of equal ones",
+                    "flow.period is the distance of those; `capsule run` marches several");
+  if (physics.numerics == Numerics::paper)
+    chosen.complain({"numerics"}, "numerics = \"paper\" has one capsule",
+                    "several capsules need numerics = \"standard\"");
+  if (physics.flow.type == FlowType::extension)
+    chosen.complain({"flow.type"}, "an extension has one capsule", "several capsules need a pore");
+  if (physics.output.resistance)
+    chosen.complain({"output.resistance"}, "the resistance of several capsules is not computed",
+                    "leave out output.resistance");
+  for (std::size_t k = 1; k < capsules.size(); ++k) {
+    const CapsuleSpec &ahead = capsules[k - 1]->capsule, &behind = capsules[k]->capsule;
+    const double rear = ahead.start_x - extent(ahead).half_length;
+    const double front = behind.start_x + extent(behind).half_length;
+    if (ahead.start_x == behind.start_x) {
+      std::vector<std::string> places{"capsule.start_x"};
+      std::ranges::copy(lists, std::back_inserter(places));
+      chosen.complain(
+          places, fmt::format("capsules {} and {} start at the same place", k, k + 1),
+          "several capsules need a list of starts, the leading one's first: capsule.start_x = [1, -3]");
+    } else if (ahead.start_x < behind.start_x)
+      chosen.complain({"capsule.start_x"},
+                      fmt::format("capsule {} starts before the one that is to lead it", k + 1),
+                      "the leading capsule comes first, the others behind it");
+    else if (front >= rear)
+      chosen.complain(
+          {"capsule.start_x", "capsule.radius"},
+          fmt::format(
+              "capsules {} and {} overlap at their start: the rear of one is at x = {:.4g}, the front of "
+              "the other at {:.4g}",
+              k, k + 1, rear, front),
+          fmt::format("their centres have to be more than {:.4g} apart",
+                      extent(ahead).half_length + extent(behind).half_length));
+  }
+  const double last_start = capsules.back()->capsule.start_x;
+  if (physics.until.last_x_g && *physics.until.last_x_g <= last_start)
+    chosen.complain({"until.last_x_g"},
+                    fmt::format("until.last_x_g = {} lies upstream of the last capsule's start",
+                                number_text(*physics.until.last_x_g)),
+                    fmt::format("it starts at {}", number_text(last_start)));
 }
 
 } // namespace capsule

@@ -1,10 +1,11 @@
 #include "case/case_file.hpp"
 #include "base/text.hpp"
 #include "case/case_checks.hpp"
-#include "case/case_reader.hpp"
+#include "case/chosen.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
 #include "case/physical.hpp"
+#include "case/value_lists.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -63,8 +64,7 @@ struct Builder {
   void take_values() {
     for (std::size_t i = 0; i < chosen.reader.assignments.size(); ++i) {
       const Assignment &assignment = chosen.reader.assignments[i];
-      const Value &value = assignment.values[chosen.selection[i]].value;
-      if (set_value(*assignment.key, value, run.physics))
+      if (set_value(*assignment.key, chosen.value(i), run.physics))
         stand_in(*assignment.key);
     }
   }
@@ -101,13 +101,10 @@ struct Builder {
       if (!assignment.sweep || !means_something(key, run.physics) ||
           (!task.motion && key.steady == SteadyRole::none))
         continue;
-      const Value &value = assignment.values[chosen.selection[i]].value;
-      const auto *word = std::get_if<std::string>(&value);
       const bool measured = std::holds_alternative<Measured>(key.field);
-      run.name += fmt::format("{}{}={}", run.name.empty() ? "" : ",", short_name(key),
-                              measured ? si_number(key)
-                              : word   ? *word
-                                       : value_text(value));
+      run.name +=
+          fmt::format("{}{}={}", run.name.empty() ? "" : ",", short_name(key),
+                      measured ? si_number(key) : plain_text(assignment.values[chosen.selection[i]].value));
     }
   }
 
@@ -174,7 +171,7 @@ struct Builder {
         c.capsule.radius = 1;
       if (!chosen.stands("capsule.start_x", "flow.type"))
         c.capsule.start_x = 0;
-    } else if (!c.until.x_g && !c.until.time)
+    } else if (!c.until.by_place() && !c.until.time)
       c.until.x_g = c.pore.shape == PoreShape::two_mouths ? c.pore.exit_x + 4 : 11.84;
   }
 
@@ -227,6 +224,56 @@ bool has_usable_name(Family &family, const std::string &name) {
   return false;
 }
 
+// Lists have a value for each capsule.
+bool lists_agree(const Chosen &chosen) {
+  const std::size_t capsules = chosen.capsules();
+  for (std::size_t i = 0; i < chosen.reader.assignments.size(); ++i) {
+    const Assignment &assignment = chosen.reader.assignments[i];
+    const GivenValue &given = assignment.values[chosen.selection[i]];
+    const std::size_t values =
+        assignment.key->of_each_capsule ? entries_of(given.value).size() : std::size_t{1};
+    if (values == 1 || values == capsules)
+      continue;
+    chosen.reader.complain(
+        given.place,
+        fmt::format("{} has {} values for {}", assignment.key->name, values, counted(capsules, "capsule")),
+        "give one value for all of them, or one for each, the leading one's first");
+    return false;
+  }
+  return true;
+}
+
+// All capsules of one run, each as a case of its own; the leading one's has the others behind it.
+void build_run(Family &family, const Selection &selection, const Task &task, bool valid, RunInput &run) {
+  CaseReader &reader = family.reader;
+  bool good = valid;
+  const std::size_t capsules = Chosen{reader, selection}.capsules();
+  for (std::size_t k = 0; k < capsules; ++k) {
+    Builder builder{{reader, selection, k}, task, {}, {}};
+    Usage usage;
+    builder.apply_preset();
+    builder.take_values();
+    builder.choose_shape();
+    builder.leave_out(usage);
+    builder.name_run();
+    builder.derive();
+    builder.complete();
+    const bool whole = builder.has_required() || task.fit; // what a fit misses may be a misspelt unknown
+    good = good && whole && builder.physical_ok;
+    if (good) {
+      check_together(builder.chosen, builder.run.physics, task);
+      family.usage.useful.merge(usage.useful);
+      family.usage.useless.merge(usage.useless);
+    }
+    if (k == 0)
+      run = std::move(builder.run);
+    else
+      run.physics.followers.push_back(std::move(builder.run.physics));
+  }
+  if (good)
+    check_capsules({reader, selection}, run.physics, task);
+}
+
 void build_runs(Family &family, const Task &task) {
   constexpr std::size_t most_runs = 10000;
   CaseReader &reader = family.reader;
@@ -240,26 +287,15 @@ void build_runs(Family &family, const Task &task) {
   const bool valid = reader.text.errors.empty();
   std::set<std::string> names;
   for (const Selection &selection : all_selections(reader.assignments)) {
-    Builder builder{{reader, selection}, task, {}, {}};
-    Usage usage;
-    builder.apply_preset();
-    builder.take_values();
-    builder.choose_shape();
-    builder.leave_out(usage);
-    builder.name_run();
-    builder.derive();
-    builder.complete();
-    const bool whole = builder.has_required() || task.fit; // what a fit misses may be a misspelt unknown
-    if (whole && builder.physical_ok && valid) {
-      check_together(builder.chosen, builder.run.physics, task);
-      family.usage.useful.merge(usage.useful);
-      family.usage.useless.merge(usage.useless);
-    }
-    if (!has_usable_name(family, builder.run.name))
+    RunInput run;
+    if (!lists_agree({reader, selection}))
+      return;
+    build_run(family, selection, task, valid, run);
+    if (!has_usable_name(family, run.name))
       return;
     // Swept values that mean nothing to a run would only make it again.
-    if (names.insert(builder.run.name).second)
-      family.runs.push_back(std::move(builder.run));
+    if (names.insert(run.name).second)
+      family.runs.push_back(std::move(run));
   }
 }
 

@@ -3,6 +3,7 @@
 #include "case/case.hpp"
 #include "case/keys.hpp"
 #include "case/toml_text.hpp"
+#include "case/value_lists.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <optional>
@@ -107,6 +108,11 @@ void complain_unknown(CaseReader &reader, const TextPlace &place, const std::str
                   near.empty() ? "`capsule keys` lists them all" : fmt::format("did you mean '{}'?", shown));
 }
 
+std::vector<Value> values_of_capsules(const Key &key, const Value &value) {
+  std::vector<Value> entries = key.of_each_capsule ? entries_of(value) : std::vector{value};
+  return entries.empty() ? std::vector{value} : entries;
+}
+
 // A single value or, for a sweep, the values of the list; complains about each that the key cannot take.
 std::vector<GivenValue> given_values(CaseReader &reader, std::size_t source, const Key &key, bool sweep,
                                      const toml::node &node) {
@@ -122,12 +128,19 @@ std::vector<GivenValue> given_values(CaseReader &reader, std::size_t source, con
   Case scratch;
   std::vector<std::string> seen;
   for (const GivenValue &given : values) {
-    if (auto complaint = set_value(key, given.value, scratch)) {
-      reader.complain(given.place, complaint->message, complaint->hint);
-      continue;
+    std::string text;
+    bool good = true;
+    for (const Value &value : values_of_capsules(key, given.value)) {
+      if (auto complaint = set_value(key, value, scratch)) {
+        reader.complain(given.place, complaint->message, complaint->hint);
+        good = false;
+        break;
+      }
+      forget_spellings(scratch);
+      text += (text.empty() ? "" : ", ") + value_text(get_value(key, scratch).value_or(value));
     }
-    forget_spellings(scratch);
-    const std::string text = value_text(get_value(key, scratch).value_or(given.value));
+    if (!good)
+      continue;
     if (std::ranges::find(seen, text) != seen.end())
       reader.complain(given.place, fmt::format("{} = {} stands twice in the sweep", key.name, text));
     seen.push_back(text);
@@ -332,33 +345,6 @@ std::string case_name_of(const fs::path &file) {
     return directory;
   const bool in_case_directory = fs::exists(whole.parent_path() / "case.toml", ignored);
   return (in_case_directory ? directory + "-" : "") + whole.stem().string();
-}
-
-const GivenValue *Chosen::given(const std::string &name) const {
-  for (std::size_t i = 0; i < reader.assignments.size(); ++i)
-    if (reader.assignments[i].key->name == name)
-      return &reader.assignments[i].values[selection[i]];
-  return nullptr;
-}
-
-bool Chosen::stands(const std::string &name, const std::string &over) const {
-  const auto level = [&](const std::string &key) {
-    const auto found =
-        std::ranges::find(reader.assignments, key, [](const Assignment &a) { return a.key->name; });
-    return found == reader.assignments.end() ? -1 : static_cast<int>(found->level);
-  };
-  return given(name) != nullptr && level(name) >= level(over);
-}
-
-void Chosen::complain(const std::vector<std::string> &names, const std::string &message,
-                      const std::string &hint) const {
-  TextPlace place;
-  for (const std::string &name : names)
-    if (const auto *value = given(name)) {
-      place = value->place;
-      break;
-    }
-  reader.complain(place, message, hint);
 }
 
 } // namespace capsule

@@ -53,21 +53,4 @@ std::filesystem::path case_file_of(const std::filesystem::path &path);
 // The directory's name for its case.toml; another file of a case directory carries both names.
 std::string case_name_of(const std::filesystem::path &file);
 
-// The values of one run: for each assignment the index of its value.
-using Selection = std::vector<std::size_t>;
-
-// What one of the runs was given.
-struct Chosen {
-  CaseReader &reader;
-  const Selection &selection;
-
-  // Null: not given.
-  const GivenValue *given(const std::string &name) const;
-  // Whether it was given, and not at a lower level than another key that its value would have to follow.
-  bool stands(const std::string &name, const std::string &over) const;
-  // At the first of the keys that was given, or else at the file's beginning.
-  void complain(const std::vector<std::string> &names, const std::string &message,
-                const std::string &hint = "") const;
-};
-
 } // namespace capsule

@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "case/case.hpp"
 #include "case/keys.hpp"
+#include "case/value_lists.hpp"
 #include <fmt/format.h>
 
 namespace capsule {
@@ -30,6 +31,8 @@ std::string toml_of(const Case &physics, Wanted wanted) {
 std::string what_counts(const Case &physics, const Task &task) {
   Case in_si = physics;
   forget_spellings(in_si);
+  for (Case &follower : in_si.followers)
+    forget_spellings(follower);
   return toml_of(in_si, [&](const Key &key) {
     if (key.name == "title" || key.name == "paper")
       return false;

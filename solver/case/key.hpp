@@ -69,6 +69,7 @@ struct Key {
   bool required = false;
   SteadyRole steady = SteadyRole::result;
   Scope scope = {};
+  bool of_each_capsule = false;        // several capsules may have a list of values, the leading one's first
   std::vector<std::string> notes = {}; // for `capsule keys`, a line each
 };
 

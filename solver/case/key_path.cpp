@@ -1,5 +1,6 @@
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
+#include "case/value_lists.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -46,6 +46,12 @@ Key parameter(Key key) {
   return key;
 }
 
+// Several capsules may differ in it.
+Key of_each_capsule(Key key) {
+  key.of_each_capsule = true;
+  return key;
+}
+
 Key only_with(Scope scope, Key key) {
   key.scope = std::move(scope);
   return key;
@@ -180,11 +186,11 @@ std::vector<Key> flow_keys() {
                  "what is constant: the flow rate, or the pressure drop from the reservoir to pore.exit_x, "
                  "or to the reservoir behind a second mouth",
                  choice<DriveBy>(CAPSULE_AT(flow.drive), {"flow-rate", "pressure"}), any_number}),
-      parameter({"flow.capillary_number",
-                 "epsilon = mu Q/(pi R_t^2 G), Q without a capsule; extension: mu e a/G",
-                 member<double>(CAPSULE_AT(flow.capillary_number)), above(0), "required", true}),
-      {"flow.viscosity_ratio", "internal over external viscosity, lambda",
-       member<double>(CAPSULE_AT(flow.viscosity_ratio)), from_to(1e-4, 1e4)},
+      of_each_capsule(parameter(
+          {"flow.capillary_number", "epsilon = mu Q/(pi R_t^2 G), Q without a capsule; extension: mu e a/G",
+           member<double>(CAPSULE_AT(flow.capillary_number)), above(0), "required", true})),
+      of_each_capsule({"flow.viscosity_ratio", "internal over external viscosity, lambda",
+                       member<double>(CAPSULE_AT(flow.viscosity_ratio)), from_to(1e-4, 1e4)}),
       in_a_pore(parameter(
           {"flow.period",
            "steady states of an infinite train of equal capsules: distance of neighbouring centres",
@@ -195,8 +201,9 @@ std::vector<Key> flow_keys() {
 std::vector<Key> mesh_keys() {
   const std::string of_accuracy = "from accuracy";
   return {
-      {"mesh.membrane", "elements or nodes of the membrane, N_M", member<int>(CAPSULE_AT(mesh.membrane)),
-       from_to(4, 10000), of_accuracy + "; 60 with numerics = \"paper\""},
+      of_each_capsule({"mesh.membrane", "elements or nodes of the membrane, N_M",
+                       member<int>(CAPSULE_AT(mesh.membrane)), from_to(4, 10000),
+                       of_accuracy + "; 60 with numerics = \"paper\""}),
       in_a_pore({"mesh.wall", "elements of the wall, N_B", member<int>(CAPSULE_AT(mesh.wall)),
                  from_to(4, 10000), of_accuracy + "; 120 with numerics = \"paper\""}),
       of_motion(
@@ -225,9 +232,13 @@ std::vector<Key> time_keys() {
 
 std::vector<Key> until_keys() {
   return {
-      of_motion(in_a_pore({"until.x_g", "stop when the centre of mass is here",
+      of_motion(in_a_pore({"until.x_g",
+                           "stop when the centre of mass is here, of several capsules the leading one's",
                            member<std::optional<double>>(CAPSULE_AT(until.x_g)), any_number,
-                           "11.84, or 4 behind a second mouth, unless until.time is given"})),
+                           "11.84, or 4 behind a second mouth, unless another end is given"})),
+      of_motion(
+          in_a_pore({"until.last_x_g", "of several capsules: stop when the last one's centre of mass is here",
+                     member<std::optional<double>>(CAPSULE_AT(until.last_x_g)), any_number, "none"})),
       of_motion({"until.time", "stop at this time", member<std::optional<double>>(CAPSULE_AT(until.time)),
                  at_least(shortest_time), "none"}),
       of_motion({"until.area_stretch",
@@ -255,21 +266,25 @@ std::vector<Key> physical_keys() {
                  measured(CAPSULE_AT(physical.pore_length), dimension::length)}),
       of_motion(in_a_pore({"physical.capsule_velocity", "of the capsule, instead of Q, for `capsule fit`",
                            measured(CAPSULE_AT(physical.capsule_velocity), dimension::velocity)})),
-      in_a_pore({"physical.shear_modulus", "surface shear modulus, G",
-                 measured(CAPSULE_AT(physical.shear_modulus), dimension::tension)}),
-      in_a_pore({"physical.young_modulus", "instead of G: surface Young modulus at small strain, E_s",
-                 measured(CAPSULE_AT(physical.young_modulus), dimension::tension)}),
-      in_a_pore({"physical.bending_modulus", "D, instead of membrane.bending_ratio",
-                 measured(CAPSULE_AT(physical.bending_modulus), dimension::energy)}),
-      in_a_pore({"physical.capsule_radius", "of the sphere of the same volume, instead of capsule.radius",
-                 measured(CAPSULE_AT(physical.capsule_radius), dimension::length)}),
-      in_a_pore({"physical.internal_viscosity", "instead of flow.viscosity_ratio",
-                 measured(CAPSULE_AT(physical.internal_viscosity), dimension::viscosity)}),
-      in_a_pore({"physical.membrane_shear_viscosity", "of the membrane, instead of membrane.shear_viscosity",
-                 measured(CAPSULE_AT(physical.shear_viscosity), dimension::surface_viscosity)}),
-      in_a_pore({"physical.membrane_dilatational_viscosity",
-                 "of the membrane, instead of membrane.dilatational_viscosity",
-                 measured(CAPSULE_AT(physical.dilatational_viscosity), dimension::surface_viscosity)}),
+      of_each_capsule(in_a_pore({"physical.shear_modulus", "surface shear modulus, G",
+                                 measured(CAPSULE_AT(physical.shear_modulus), dimension::tension)})),
+      of_each_capsule(
+          in_a_pore({"physical.young_modulus", "instead of G: surface Young modulus at small strain, E_s",
+                     measured(CAPSULE_AT(physical.young_modulus), dimension::tension)})),
+      of_each_capsule(in_a_pore({"physical.bending_modulus", "D, instead of membrane.bending_ratio",
+                                 measured(CAPSULE_AT(physical.bending_modulus), dimension::energy)})),
+      of_each_capsule(
+          in_a_pore({"physical.capsule_radius", "of the sphere of the same volume, instead of capsule.radius",
+                     measured(CAPSULE_AT(physical.capsule_radius), dimension::length)})),
+      of_each_capsule(in_a_pore({"physical.internal_viscosity", "instead of flow.viscosity_ratio",
+                                 measured(CAPSULE_AT(physical.internal_viscosity), dimension::viscosity)})),
+      of_each_capsule(in_a_pore(
+          {"physical.membrane_shear_viscosity", "of the membrane, instead of membrane.shear_viscosity",
+           measured(CAPSULE_AT(physical.shear_viscosity), dimension::surface_viscosity)})),
+      of_each_capsule(
+          in_a_pore({"physical.membrane_dilatational_viscosity",
+                     "of the membrane, instead of membrane.dilatational_viscosity",
+                     measured(CAPSULE_AT(physical.dilatational_viscosity), dimension::surface_viscosity)})),
       in_a_pore({"physical.resistivity", "of the liquid, rho: resistances come in ohm, too",
                  measured(CAPSULE_AT(physical.resistivity), dimension::resistivity)}),
       of_motion(in_a_pore({"physical.density",
@@ -322,6 +337,9 @@ std::vector<Key> make_keys() {
   for (const auto &section : {general_keys, pore_keys, capsule_keys, membrane_keys, flow_keys, mesh_keys,
                               time_keys, until_keys, physical_keys, output_keys, fit_keys})
     std::ranges::move(section(), std::back_inserter(table));
+  for (Key &key : table)
+    if (const std::string section = section_of(key.name); section == "capsule" || section == "membrane")
+      key.of_each_capsule = true;
   return table;
 }
 
@@ -371,10 +389,6 @@ std::string scope_text(const Key &key) {
   std::vector<std::string> values;
   std::ranges::transform(key.scope.values, std::back_inserter(values), value_text);
   return values.empty() ? "" : fmt::format("{} = {}", key.scope.key, fmt::join(values, " or "));
-}
-
-std::optional<Value> value_of(const Key &key, const Case &physics) {
-  return means_something(key, physics) ? get_value(key, physics) : std::nullopt;
 }
 
 void forget_spellings(Case &physics) {

@@ -27,9 +27,6 @@ std::string scope_text(const Key &key);
 // What only `capsule fit` looks at: the table [fit], and what stands in for the flow rate.
 bool is_of_fits(const Key &key);
 
-// The value, unless it was not given, is chosen automatically, or means nothing to the case.
-std::optional<Value> value_of(const Key &key, const Case &physics);
-
 // The keys along which branches go, and which a fit may find.
 std::vector<std::string> parameters_of_steady_states();
 

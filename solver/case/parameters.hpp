@@ -93,7 +93,9 @@ struct TimeSpec {
 };
 
 struct UntilSpec {
-  std::optional<double> x_g;
+  bool by_place() const { return x_g || last_x_g; }
+  std::optional<double> x_g;      // of the leading capsule
+  std::optional<double> last_x_g; // of the last of several
   std::optional<double> time;
   std::optional<double> area_stretch; // what the membrane bears: lambda_s lambda_phi
   std::optional<double> tension;      // the larger principal one

@@ -225,7 +225,9 @@ private:
   }
 
   Node named() {
-    const std::string name = word();
+    std::string name = word();
+    if (take('#')) // of which capsule
+      name += fmt::format("#{}", whole_number());
     if (take('(')) {
       std::vector<Node> arguments{sum()};
       while (take(','))
@@ -270,6 +272,15 @@ private:
     if (at_ == begin)
       fail("a name is missing");
     return std::string(text_.substr(begin, at_ - begin));
+  }
+
+  std::string_view whole_number() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && is_digit(text_[at_]))
+      ++at_;
+    if (at_ == begin)
+      fail("the number of a capsule is missing");
+    return text_.substr(begin, at_ - begin);
   }
 
   double signed_number() { return take('-') ? -number() : number(); }

@@ -3,6 +3,7 @@
 #include "base/text.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
+#include "case/value_lists.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -41,8 +42,8 @@ bool has_value(const Case &physics, const Key &key, const std::string &text) {
   const auto value = value_of(key, physics);
   if (!value)
     return false;
-  if (const auto *word = std::get_if<std::string>(&*value))
-    return *word == text;
+  if (std::holds_alternative<std::string>(*value) || entries_of(*value).size() > 1)
+    return plain_text(*value) == text;
   return to_number(value_text(*value)) == to_number(text);
 }
 
@@ -192,23 +193,33 @@ bool RunTable::has_column(const fs::path &file, const std::string &name) const {
   return fs::exists(file, ignored) && columns(file).contains(name);
 }
 
+// "x_g#2" is x_g of the second capsule, whose tables are series-2.csv and profiles-2.csv; of the leading one they have no
+// number.
 Values RunTable::values_in(const RunResult &run, const Reference &reference) const {
+  const std::size_t mark = reference.name.find('#');
+  const std::string quantity = reference.name.substr(0, mark);
+  const std::string number = mark == std::string::npos ? "" : reference.name.substr(mark + 1);
+  const auto table = [&](const char *name) {
+    return run.directory / fmt::format("{}{}.csv", name, number.empty() ? "" : "-" + number);
+  };
   if (reference.places.empty()) {
     const auto found = run.summary->quantities.find(reference.name);
     if (found != run.summary->quantities.end())
       return {found->second};
     if (const auto value = key_value(reference.name, run.input.physics))
       return {*value};
-  } else if (has_column(run.directory / "series.csv", reference.name)) {
+  } else if (has_column(table("series"), quantity)) {
     if (reference.places.size() > 1)
       throw NoValue("no value");
-    const Columns &series = columns(run.directory / "series.csv");
-    return values_at(column(series, reference.name), column(series, reference.places[0].column),
+    const Columns &series = columns(table("series"));
+    // Places are the leading capsule's, whose rows are of the same times.
+    return values_at(column(series, quantity),
+                     column(columns(run.directory / "series.csv"), reference.places[0].column),
                      reference.places[0]);
   }
-  if (!has_column(run.directory / "profiles.csv", reference.name))
+  if (!has_column(table("profiles"), quantity))
     throw NoValue("no value");
-  return profile_values(columns(run.directory / "profiles.csv"), reference);
+  return profile_values(columns(table("profiles")), {quantity, {}, reference.places});
 }
 
 Values RunTable::values(const Reference &reference, const std::string &case_name,

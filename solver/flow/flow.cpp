@@ -197,10 +197,10 @@ FlowState Flow::solve(const Interaction &interaction, const Vector &f, Recycled 
   return state;
 }
 
-double Flow::reciprocal_pressure_drop(const Interaction &interaction, const Vector &f, const FlowState &state,
-                                      Recycled &traction) const {
-  return capsule::reciprocal_pressure_drop(interaction, load_with_friction(interaction, f, state.velocity),
-                                           double_density(state.velocity), solver_tolerance_, traction);
+Vector Flow::reciprocal_pressure_drops(const Interaction &interaction, const Vector &f,
+                                       const FlowState &state, Recycled &traction) const {
+  return capsule::reciprocal_pressure_drops(interaction, load_with_friction(interaction, f, state.velocity),
+                                            double_density(state.velocity), solver_tolerance_, traction);
 }
 
 Vector Flow::outer_velocity(const Targets &points, const Interaction &interaction, const Vector &f,

@@ -53,9 +53,9 @@ public:
   Interaction interact(const Vector &position) const;
   Interaction interact(const Vector &position, Layers layers) const;
   FlowState solve(const Interaction &interaction, const Vector &f, Recycled &recycled) const;
-  // Delta P by the reciprocal theorem.
-  double reciprocal_pressure_drop(const Interaction &interaction, const Vector &f, const FlowState &state,
-                                  Recycled &traction) const;
+  // Each membrane's share of Delta P by the reciprocal theorem.
+  Vector reciprocal_pressure_drops(const Interaction &interaction, const Vector &f, const FlowState &state,
+                                   Recycled &traction) const;
   // Velocity of the outer liquid at points off the membranes, 2 n, in the flow that f has made.
   Vector outer_velocity(const Targets &points, const Interaction &interaction, const Vector &f,
                         const FlowState &state) const;

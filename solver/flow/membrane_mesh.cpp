@@ -96,13 +96,15 @@ MembraneMesh join(std::span<const MembraneMesh> meshes) {
   return joined;
 }
 
-std::vector<Eigen::Index> MembraneMesh::rows(std::size_t part) const {
-  const Part &p = parts[part];
-  const Eigen::Index n = p.nodes();
+std::vector<Eigen::Index> rows_of_part(Eigen::Index first_node, Eigen::Index n, Eigen::Index nodes) {
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(2 * n));
-  std::iota(rows.begin(), rows.begin() + n, p.first_node);
-  std::iota(rows.begin() + n, rows.end(), nodes + p.first_node);
+  std::iota(rows.begin(), rows.begin() + n, first_node);
+  std::iota(rows.begin() + n, rows.end(), nodes + first_node);
   return rows;
+}
+
+std::vector<Eigen::Index> MembraneMesh::rows(std::size_t part) const {
+  return rows_of_part(parts[part].first_node, parts[part].nodes(), nodes);
 }
 
 Vector MembraneMesh::at_panels(const Vector &nodal) const {

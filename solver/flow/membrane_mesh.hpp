@@ -19,6 +19,9 @@ Vector even_membrane_edges(const MeridianBasis &basis, double largest_panel);
 Vector halved_edges(const MeridianBasis &basis, const Vector &position, const Vector &edges,
                     double most_turning);
 
+// Where the 2 n components of one membrane stand in a nodal vector of all: n nodes from the first one on, of `nodes`.
+std::vector<Eigen::Index> rows_of_part(Eigen::Index first_node, Eigen::Index n, Eigen::Index nodes);
+
 struct MembraneMesh {
   struct Part { // one membrane
     MeridianBasis basis;
@@ -35,7 +38,7 @@ struct MembraneMesh {
   double near_tolerance = 0;
   NearRule near;
 
-  // Where the 2 n components of one membrane stand in a nodal vector.
+  // Of one membrane in a nodal vector.
   std::vector<Eigen::Index> rows(std::size_t part) const;
   // Nodal values -> values at the quadrature points, both components.
   Vector at_panels(const Vector &nodal) const;

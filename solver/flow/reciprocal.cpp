@@ -25,13 +25,24 @@ Vector base_traction(const Interaction &interaction, double tolerance, Recycled 
 
 } // namespace
 
-double reciprocal_pressure_drop(const Interaction &interaction, const Vector &f,
-                                const Vector &excess_velocity, double tolerance, Recycled &traction) {
+Vector reciprocal_pressure_drops(const Interaction &interaction, const Vector &f,
+                                 const Vector &excess_velocity, double tolerance, Recycled &traction) {
+  const MembraneMesh &mesh = interaction.mesh();
   const Vector area2 = interaction.shape().nodes.area.replicate(2, 1);
-  double sum = -area2.dot(f.cwiseProduct(interaction.base_velocity()));
-  if (excess_velocity.size() > 0)
-    sum += area2.dot(excess_velocity.cwiseProduct(base_traction(interaction, tolerance, traction)));
-  return 2 * sum; // an integral over the area is 2 pi times the sum
+  const Vector power = f.cwiseProduct(interaction.base_velocity());
+  const Vector of_liquid =
+      excess_velocity.size() > 0
+          ? Vector(excess_velocity.cwiseProduct(base_traction(interaction, tolerance, traction)))
+          : Vector();
+  Vector drops(std::ssize(mesh.parts));
+  for (std::size_t k = 0; k < mesh.parts.size(); ++k) {
+    const std::vector<Eigen::Index> rows = mesh.rows(k);
+    double sum = -Vector(area2(rows)).dot(Vector(power(rows)));
+    if (of_liquid.size() > 0)
+      sum += Vector(area2(rows)).dot(Vector(of_liquid(rows)));
+    drops[static_cast<Eigen::Index>(k)] = 2 * sum; // an integral over the area is 2 pi times the sum
+  }
+  return drops;
 }
 
 } // namespace capsule

@@ -28,20 +28,40 @@ bool any_inside(const Chain &a, const Chain &b) {
   return false;
 }
 
-// From points of a to chords of b, with the place on a or, if `of_chords`, on b.
-Gap nearest(const Chain &a, const Chain &b, bool of_chords) {
-  Gap found{std::numeric_limits<double>::infinity(), 0, 0};
-  for (Eigen::Index i = 0; i < a.x.size(); ++i)
-    for (Eigen::Index k = 1; k < b.x.size(); ++k) {
-      const double along_x = b.x[k] - b.x[k - 1], along_r = b.r[k] - b.r[k - 1];
-      const double to_x = a.x[i] - b.x[k - 1], to_r = a.r[i] - b.r[k - 1];
-      const double part =
-          std::clamp((to_x * along_x + to_r * along_r) / (along_x * along_x + along_r * along_r), 0.0, 1.0);
-      const double distance = std::hypot(to_x - part * along_x, to_r - part * along_r);
-      if (distance < found.width)
-        found = of_chords ? Gap{distance, b.x[k - 1] + part * along_x, b.r[k - 1] + part * along_r}
-                          : Gap{distance, a.x[i], a.r[i]};
-    }
+// The nearest place of a chain to a point, by the square of its distance.
+struct Nearest {
+  double square, x, r;
+};
+Nearest nearest_on(const Chain &chain, double x, double r) {
+  Nearest found{std::numeric_limits<double>::infinity(), 0, 0};
+  for (Eigen::Index k = 1; k < chain.x.size(); ++k) {
+    const double along_x = chain.x[k] - chain.x[k - 1], along_r = chain.r[k] - chain.r[k - 1];
+    const double to_x = x - chain.x[k - 1], to_r = r - chain.r[k - 1];
+    const double part =
+        std::clamp((to_x * along_x + to_r * along_r) / (along_x * along_x + along_r * along_r), 0.0, 1.0);
+    const double away_x = to_x - part * along_x, away_r = to_r - part * along_r;
+    const double square = away_x * away_x + away_r * away_r;
+    if (square < found.square)
+      found = {square, x - away_x, r - away_r};
+  }
+  return found;
+}
+
+// From points of a to chords of b where that is less than the gap that is known, with the place on a or, if `of_chords`,
+// on b. From one point to the next the distance falls by no more than the points are apart: those that are surely
+// farther are skipped.
+Gap nearest(const Chain &a, const Chain &b, bool of_chords, Gap found) {
+  double at_least = 0; // of the present point's distance
+  for (Eigen::Index i = 0; i < a.x.size(); ++i) {
+    if (i > 0)
+      at_least -= std::hypot(a.x[i] - a.x[i - 1], a.r[i] - a.r[i - 1]);
+    if (at_least > found.width)
+      continue;
+    const Nearest place = nearest_on(b, a.x[i], a.r[i]);
+    at_least = std::sqrt(place.square);
+    if (at_least < found.width)
+      found = of_chords ? Gap{at_least, place.x, place.r} : Gap{at_least, a.x[i], a.r[i]};
+  }
   return found;
 }
 
@@ -58,8 +78,8 @@ bool overlap(const Chain &a, const Chain &b) {
 }
 
 Gap gap_between(const Chain &a, const Chain &b) {
-  const Gap from_a = nearest(a, b, false), from_b = nearest(b, a, true);
-  return from_a.width <= from_b.width ? from_a : from_b;
+  const Gap from_a = nearest(a, b, false, {std::numeric_limits<double>::infinity(), 0, 0});
+  return nearest(b, a, true, from_a);
 }
 
 } // namespace capsule

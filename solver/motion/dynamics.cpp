@@ -3,6 +3,7 @@
 #include "paper/paper_system.hpp"
 #include "scene/make_flow.hpp"
 #include <utility>
+#include <vector>
 
 namespace capsule {
 namespace {
@@ -11,21 +12,44 @@ namespace {
 constexpr Advice advice{.at_the_wall = "try a smaller accuracy or a finer mesh",
                         .at_the_end = "move pore.exit_x away"};
 
+// The loads of all membranes of a scene.
+struct Loads {
+  std::shared_ptr<const Scene> scene;
+  std::vector<std::vector<Eigen::Index>> rows; // of each membrane
+  std::vector<double> capillary_numbers;
+
+  Vector f(const Vector &position) const { // of flow.hpp
+    Vector all(position.size());
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      all(rows[k]) = membrane_load(scene->membrane_of(k), position(rows[k])) / capillary_numbers[k];
+    return all;
+  }
+  Matrix frozen_jacobian(const Vector &position) const { // load.hpp
+    Matrix all = Matrix::Zero(position.size(), position.size());
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      all(rows[k], rows[k]) =
+          frozen_load_jacobian(scene->membrane_of(k), position(rows[k]), capillary_numbers[k]);
+    return all;
+  }
+};
+
 Dynamics standard_dynamics(const Case &physics) {
   Dynamics dynamics;
   dynamics.scene = std::make_shared<const Scene>(make_scene(physics));
   const auto scene = dynamics.scene;
-  const auto flow =
-      std::make_shared<const Flow>(make_flow(scene->pore, physics.flow, scene->membrane.basis,
-                                             choose_resolution(physics).flow, physics.membrane.viscosity));
+  std::vector<MembraneInFlow> membranes;
+  Loads loads{scene, rows_of_capsules(*scene), {}};
+  for (const Case *capsule : capsules_of(physics)) {
+    membranes.push_back({scene->membrane_of(membranes.size()).basis, choose_resolution(*capsule).flow,
+                         capsule->flow.viscosity_ratio, capsule->membrane.viscosity});
+    loads.capillary_numbers.push_back(capsule->flow.capillary_number);
+  }
+  const auto flow = std::make_shared<const Flow>(make_flow(scene->pore, physics.flow, membranes));
   const auto recycled = dynamics.recycled;
   const FlowType type = physics.flow.type;
-  const double capillary_number = physics.flow.capillary_number;
-  const auto f = [scene, capillary_number](const Vector &position) { // of flow.hpp
-    return Vector(membrane_load(scene->membrane, position) / capillary_number);
-  };
+  const auto f = [loads](const Vector &position) { return loads.f(position); };
   dynamics.flow = [type, flow, scene, f, recycled](const Vector &position) {
-    require_capsule(scene->pore, position, advice);
+    require_capsules(*scene, position, advice);
     return flow->solve(flow->interact(place_in_flow(type, position)), f(position), recycled->velocity);
   };
   dynamics.report = [type, flow, f, recycled](const Vector &position, bool regular) {
@@ -33,18 +57,20 @@ Dynamics standard_dynamics(const Case &physics) {
     const Vector load = f(position);
     RecycledFlow copy = *recycled;
     FlowState state = flow->solve(interaction, load, copy.velocity);
-    state.pressure_drop_reciprocal = flow->reciprocal_pressure_drop(interaction, load, state, copy.traction);
+    state.pressure_shares = flow->reciprocal_pressure_drops(interaction, load, state, copy.traction);
+    state.pressure_drop_reciprocal = state.pressure_shares.sum();
     if (regular)
       recycled->traction = std::move(copy.traction);
     return state;
   };
-  dynamics.jacobian = [flow, scene, f, capillary_number, recycled](const Vector &position) -> Matrix {
+  dynamics.jacobian = [flow, loads, recycled](const Vector &position) -> Matrix {
     const Interaction interaction = flow->interact(position);
     const Matrix mobility = flow->mobility(interaction, recycled->velocity);
-    Matrix load = frozen_load_jacobian(scene->membrane, position, capillary_number);
+    Matrix load = loads.frozen_jacobian(position);
     if (flow->has_friction()) {
       Recycled copy = recycled->velocity;
-      load -= flow->friction_jacobian(interaction, flow->solve(interaction, f(position), copy).velocity);
+      load -=
+          flow->friction_jacobian(interaction, flow->solve(interaction, loads.f(position), copy).velocity);
     }
     return mobility * load;
   };

@@ -36,6 +36,17 @@ std::vector<RowPair> pair_rows(const std::vector<SeriesRow> &fine, const std::ve
   return pairs;
 }
 
+// The rows of two followers where those of their leading capsules are paired.
+std::vector<RowPair> pair_followers(const std::vector<RowPair> &leading, const Checkpoint &fine,
+                                    const Checkpoint &coarse, std::size_t follower) {
+  std::vector<RowPair> pairs;
+  for (const RowPair &pair : leading)
+    pairs.push_back(
+        {&fine.followers[follower].series[static_cast<std::size_t>(pair.fine - fine.series.data())],
+         &coarse.followers[follower].series[static_cast<std::size_t>(pair.coarse - coarse.series.data())]});
+  return pairs;
+}
+
 // The deformation is of length and diameter, whose errors may cancel in it by accident: they are added.
 double deformation_difference(const SeriesRow &row, const SeriesRow &other) {
   const auto diameter = [](const SeriesRow &of) {
@@ -66,35 +77,49 @@ double shift_of_peak(const std::vector<RowPair> &pairs, const Peak &peak) {
   return shift;
 }
 
+// The largest differences of each quantity along the way, "v_g@x_g", and over its last part, "v_g", both by the leading
+// capsule's rows, whose last one is `end`; a mark of the capsule stands behind the quantity.
+std::map<std::string, double> differences(const std::vector<RowPair> &leading, const SeriesRow &end,
+                                          const std::vector<RowPair> &pairs, bool by_x_g,
+                                          const std::string &mark) {
+  constexpr double last_part = 2; // x_g, or a tenth of the time
+  std::map<std::string, double> largest;
+  double SeriesRow::*const place = by_x_g ? &SeriesRow::x_g : &SeriesRow::time;
+  const char *const suffix = by_x_g ? "@x_g" : "@time";
+  const double last = end.*place - (by_x_g ? last_part : 0.1 * end.time);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto &[row, other] = pairs[i];
+    for (const ReportedQuantity &quantity : reported_quantities()) {
+      if ((quantity.error != ErrorEstimate::of_marches && quantity.error != ErrorEstimate::of_all) ||
+          !is_reported(quantity, *row))
+        continue;
+      const double difference =
+          std::abs(quantity.value == &SeriesRow::deformation ? deformation_difference(*row, *other)
+                                                             : row->*quantity.value - other->*quantity.value);
+      const auto add = [&](const std::string &name) { largest[name] = std::max(largest[name], difference); };
+      add(quantity.name + mark + suffix);
+      // The time adds up along the way.
+      if ((*leading[i].fine).*place >= last || quantity.value == &SeriesRow::time)
+        add(quantity.name + mark);
+    }
+  }
+  return largest;
+}
+
 } // namespace
 
 std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine,
                                               const std::vector<SeriesRow> &coarse, bool by_x_g,
                                               Scheme scheme) {
-  constexpr double last_part = 2; // x_g, or a tenth of the time
   constexpr double around_peak = 0.5;
-  double SeriesRow::*const place = by_x_g ? &SeriesRow::x_g : &SeriesRow::time;
-  const char *const suffix = by_x_g ? "@x_g" : "@time";
-  const double last = fine.back().*place - (by_x_g ? last_part : 0.1 * fine.back().time);
   const std::optional<Peak> peak = entry_peak(fine);
   const std::optional<Peak> coarse_peak = entry_peak(coarse);
-  std::map<std::string, double> error;
+  const std::vector<RowPair> pairs = pair_rows(fine, coarse, by_x_g ? &SeriesRow::x_g : &SeriesRow::time);
+  std::map<std::string, double> error = differences(pairs, fine.back(), pairs, by_x_g, "");
   const auto add = [&](const std::string &name, double difference) {
     error[name] = std::max(error[name], std::abs(difference));
   };
-  const std::vector<RowPair> pairs = pair_rows(fine, coarse, place);
   for (const auto &[row, other] : pairs) {
-    for (const ReportedQuantity &quantity : reported_quantities()) {
-      if ((quantity.error != ErrorEstimate::of_marches && quantity.error != ErrorEstimate::of_all) ||
-          !is_reported(quantity, *row))
-        continue;
-      const double difference = quantity.value == &SeriesRow::deformation
-                                    ? deformation_difference(*row, *other)
-                                    : row->*quantity.value - other->*quantity.value;
-      add(std::string(quantity.name) + suffix, difference);
-      if (row->*place >= last || quantity.value == &SeriesRow::time) // the time adds up along the way
-        add(quantity.name, difference);
-    }
     if (by_x_g)
       add("x_g@time", (row->time - other->time) * row->v_g);
     if (peak && coarse_peak && std::abs(row->x_g - peak->x_g) < around_peak)
@@ -108,6 +133,21 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
     if (quantity.error == ErrorEstimate::by_value_itself)
       error[quantity.name] = std::abs(fine.back().*quantity.value);
   return error;
+}
+
+void add_errors_of_followers(const Checkpoint &fine, const Checkpoint &coarse, bool by_x_g, Scheme scheme,
+                             std::map<std::string, double> &errors) {
+  const std::vector<RowPair> leading =
+      pair_rows(fine.series, coarse.series, by_x_g ? &SeriesRow::x_g : &SeriesRow::time);
+  for (std::size_t k = 0; k < fine.followers.size(); ++k) {
+    const std::string mark = capsule_mark(k + 1);
+    for (const auto &[quantity, difference] :
+         differences(leading, fine.series.back(), pair_followers(leading, fine, coarse, k), by_x_g, mark))
+      errors[quantity] = safety_of(quantity, scheme) * difference;
+    for (const ReportedQuantity &quantity : reported_quantities())
+      if (quantity.error == ErrorEstimate::by_value_itself)
+        errors[quantity.name + mark] = std::abs(fine.followers[k].series.back().*quantity.value);
+  }
 }
 
 void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fine,

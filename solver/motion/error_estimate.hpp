@@ -2,7 +2,7 @@
 // Bounds of a march's errors from its differences to a slightly coarser one (motion; what was weighed:
 // paper-notes/methods.md). Throws nothing.
 #include "case/parameters.hpp"
-#include "observe/records.hpp"
+#include "observe/outcome.hpp"
 #include <map>
 #include <string>
 #include <vector>
@@ -17,6 +17,11 @@ struct Case;
 std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine,
                                               const std::vector<SeriesRow> &coarse, bool by_x_g,
                                               Scheme scheme);
+
+// Of the capsules behind the leading one, of rows at the same x_g of the leading one or the same time: "v_g#2@x_g", "v_g#2"
+// and so on of the second.
+void add_errors_of_followers(const Checkpoint &fine, const Checkpoint &coarse, bool by_x_g, Scheme scheme,
+                             std::map<std::string, double> &errors);
 
 // Of the transit's numbers, "transit_time" ..., which both marches have.
 void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fine,

@@ -1,16 +1,19 @@
 #include "motion/march.hpp"
 #include "base/failure.hpp"
 #include "case/case.hpp"
+#include "geometry/gap.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/stations.hpp"
 #include "motion/time_step.hpp"
 #include "observe/gauge.hpp"
 #include "scene/resolution.hpp"
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace capsule {
 namespace {
@@ -18,7 +21,8 @@ namespace {
 constexpr int rows_in_time = 200; // of a march that ends at a time
 constexpr int steps_of_a_leg = 250;
 constexpr int explicit_steps_of_a_leg = 1000;
-constexpr Station burst_station{.value = 0, .profile = true, .regular = true, .end = true};
+constexpr Station end_station{
+    .value = 0, .profile = true, .regular = true, .end = true}; // not at a given place
 constexpr double shortest_leg = 1e-4; // a march that gains less time than this in one leg is given up
 
 // Integrates, records what is due, and stops.
@@ -27,15 +31,24 @@ public:
   March(const Case &input, const Checkpoint &from, const Control &control, Role role, double roughness_limit)
       : input_(input), control_(control), role_(role),
         roughness_limit_(role == Role::main ? roughness_limit : std::numeric_limits<double>::infinity()),
-        dynamics_(make_dynamics(input)),
-        gauge_(dynamics_.scene->pore, dynamics_.scene->membrane,
-               input.output.resistance ? std::optional(choose_resolution(input).flow) : std::nullopt),
-        record_(from), steps_(from.steps) {
+        dynamics_(make_dynamics(input)), rows_(rows_of_capsules(*dynamics_.scene)), record_(from),
+        steps_(from.steps) {
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      gauges_.emplace_back(dynamics_.scene->pore, dynamics_.scene->membrane_of(k),
+                           input.output.resistance ? std::optional(choose_resolution(input).flow)
+                                                   : std::nullopt);
+    record_.followers.resize(rows_.size() - 1);
     // Not the centre of the start's shape, whose rounding may lie on either side of a place that is asked for.
-    const double centre = record_.steps > 0 ? gauge_.centre(record_.position) : input.capsule.start_x;
-    x_g_stations_ = stations(centre, row_spacing, input.until.x_g, input.output.profiles_at_x_g);
-    const double end = input.until.time.value_or(std::numeric_limits<double>::infinity());
-    time_stations_ = stations(record_.time, input.until.x_g ? end : end / rows_in_time, input.until.time,
+    const double centre = record_.steps > 0 ? centre_of(0, record_.position) : input.capsule.start_x;
+    const UntilSpec &until = input.until;
+    x_g_stations_ =
+        stations(centre, row_spacing, until.last_x_g && !until.x_g ? end_of_way(input.pore) : until.x_g,
+                 input.output.profiles_at_x_g);
+    if (until.last_x_g && !until.x_g)
+      for (Station &station : x_g_stations_)
+        station.end = false;
+    const double end = until.time.value_or(std::numeric_limits<double>::infinity());
+    time_stations_ = stations(record_.time, until.by_place() ? end : end / rows_in_time, until.time,
                               input.output.profiles_at_time);
   }
 
@@ -60,12 +73,23 @@ public:
     if (outcome.status != Status::interrupted)
       record_.steps = steps_;
     outcome.last = record_;
-    if (const auto empty = gauge_.empty_resistance())
+    if (const auto empty = gauges_[0].empty_resistance())
       outcome.further["empty_resistance"] = *empty;
     return outcome;
   }
 
 private:
+  Vector part(const Vector &of_all, std::size_t capsule) const { return of_all(rows_[capsule]); }
+  double centre_of(std::size_t capsule, const Vector &position) const {
+    return gauges_[capsule].centre(part(position, capsule));
+  }
+  double smallest_film(const Vector &position) const {
+    double film = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      film = std::min(film, gauges_[k].film(part(position, k)));
+    return film;
+  }
+
   bool started() const { return record_.position.size() > 0; }
 
   void begin_leg() {
@@ -203,7 +227,7 @@ private:
     record_.steps = steps_;
     record_.leg = {};
     SeriesRow here; // only the film is measured between rows
-    here.min_film = gauge_.film(record_.position);
+    here.min_film = smallest_film(record_.position);
     throw_if_stopped({.row = here});
     if (input_.time.scheme == Scheme::bdf && gone < shortest_leg)
       throw NumericsFailure(failure_kind::unresolved,
@@ -220,7 +244,8 @@ private:
   double burst_time(const Integrator &integrator) const {
     const UntilSpec &until = input_.until;
     const auto beyond = [&](double time) {
-      return beyond_bearing(until, gauge_.largest_strain(integrator.state_at(time)));
+      const Vector position = integrator.state_at(time);
+      return beyond_bearing_of(most_strained(position), position);
     };
     const double now = integrator.time();
     return (until.area_stretch || until.tension) && beyond(now) >= 0
@@ -228,11 +253,24 @@ private:
                : std::numeric_limits<double>::infinity();
   }
 
+  // When the last capsule came to where it ends the march in the last step, if it did.
+  template <class Integrator>
+  double arrival_of_last(const Integrator &integrator) const {
+    if (!input_.until.last_x_g)
+      return std::numeric_limits<double>::infinity();
+    const auto ahead = [&](double time) {
+      return centre_of(rows_.size() - 1, integrator.state_at(time)) - *input_.until.last_x_g;
+    };
+    const double now = integrator.time();
+    return ahead(now) >= 0 ? crossing_time(ahead, integrator.previous_time(), now)
+                           : std::numeric_limits<double>::infinity();
+  }
+
   // Records the rows that fall into the last step, in order of time; true at the end.
   template <class Integrator>
   bool record_due(const Integrator &integrator) {
     const double now = integrator.time(), before = integrator.previous_time();
-    const double burst = burst_time(integrator);
+    const double burst = burst_time(integrator), last = arrival_of_last(integrator);
     for (;;) {
       double due = std::numeric_limits<double>::infinity();
       const Station *station = nullptr;
@@ -244,7 +282,7 @@ private:
       }
       if (next_x_g_ < x_g_stations_.size()) {
         const auto ahead = [&](double time) {
-          return gauge_.centre(integrator.state_at(time)) - x_g_stations_[next_x_g_].value;
+          return centre_of(0, integrator.state_at(time)) - x_g_stations_[next_x_g_].value;
         };
         if (ahead(now) >= 0) {
           const double crossing = crossing_time(ahead, before, now);
@@ -255,8 +293,12 @@ private:
           }
         }
       }
+      if (last <= now && last <= due) {
+        station = &end_station;
+        due = last;
+      }
       if (burst <= now && burst <= due) {
-        record(burst, integrator.state_at(burst), burst_station, true);
+        record(burst, integrator.state_at(burst), end_station, true);
         return true;
       }
       if (station == nullptr)
@@ -297,24 +339,62 @@ private:
       last_accepted_ = position;
       return;
     }
-    // Nobody looks at the companion's second pressure drop.
-    const FlowState state =
-        role_ == Role::companion ? dynamics_.flow(position) : dynamics_.report(position, station.regular);
-    SeriesRow row = gauge_.row(time, position, state.velocity);
-    row.pressure_drop = state.pressure_drop;
-    row.pressure_drop_reciprocal = state.pressure_drop_reciprocal;
-    row.flow_rate = state.flow_rate;
-    record_.series.push_back(row);
+    // Nobody looks at the companion's second pressure drop, but at each capsule's share of it.
+    const bool alone = rows_.size() == 1;
+    const FlowState state = role_ == Role::companion && alone ? dynamics_.flow(position)
+                                                              : dynamics_.report(position, station.regular);
+    std::vector<SeriesRow> rows;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const Vector here = part(position, k), velocity = part(state.velocity, k);
+      SeriesRow row = gauges_[k].row(time, here, velocity);
+      row.pressure_drop = state.pressure_drop;
+      row.pressure_drop_reciprocal = state.pressure_drop_reciprocal;
+      row.flow_rate = state.flow_rate;
+      if (!alone)
+        row.pressure_share = state.pressure_shares[static_cast<Eigen::Index>(k)];
+      if (k > 0) {
+        row.spacing = rows[k - 1].x_g - row.x_g;
+        row.min_gap = gap_to_leader(k, position);
+      }
+      rows.push_back(row);
+      CapsuleRecord *follower = k > 0 ? &record_.followers[k - 1] : nullptr;
+      (follower ? follower->series : record_.series).push_back(row);
+      if (station.profile)
+        (follower ? follower->profiles : record_.profiles)
+            .push_back(gauges_[k].profile(time, here, velocity));
+    }
     ++record_.leg.rows;
-    if (station.profile)
-      record_.profiles.push_back(gauge_.profile(time, position, state.velocity));
     if (control_.progress)
-      control_.progress(row, steps_);
-    throw_if_stopped({.row = row,
-                      .crosses_itself = gauge_.crosses_itself(position),
-                      .roughness_limit = roughness_limit_,
-                      .bursts = bursts});
+      control_.progress(rows[0], steps_);
+    for_each_capsule(*dynamics_.scene, [&](std::size_t k) {
+      const Vector here = part(position, k);
+      throw_if_stopped({.row = rows[k],
+                        .crosses_itself = gauges_[k].crosses_itself(here),
+                        .roughness_limit = roughness_limit_,
+                        .bursts = bursts && k == most_strained(position)});
+    });
     last_accepted_ = position;
+  }
+
+  // Of one capsule and the one before it.
+  double gap_to_leader(std::size_t capsule, const Vector &position) const {
+    constexpr int chords = 8;
+    const auto chain = [&](std::size_t k) {
+      return chain_of(dynamics_.scene->membrane_of(k).basis, part(position, k), chords);
+    };
+    return gap_between(chain(capsule - 1), chain(capsule)).width;
+  }
+
+  double beyond_bearing_of(std::size_t capsule, const Vector &position) const {
+    return beyond_bearing(input_.until, gauges_[capsule].largest_strain(part(position, capsule)));
+  }
+  // The capsule that is nearest to what it bears, or beyond.
+  std::size_t most_strained(const Vector &position) const {
+    std::size_t most = 0;
+    for (std::size_t k = 1; k < rows_.size(); ++k)
+      if (beyond_bearing_of(k, position) > beyond_bearing_of(most, position))
+        most = k;
+    return most;
   }
 
   const Case &input_;
@@ -322,7 +402,8 @@ private:
   Role role_;
   double roughness_limit_;
   Dynamics dynamics_;
-  Gauge gauge_;
+  std::vector<std::vector<Eigen::Index>> rows_; // of each capsule in a position
+  std::vector<Gauge> gauges_;
   Checkpoint record_;
   long steps_;                           // with those of the present leg
   bool repeats_ = false;                 // the present leg, from its beginning to where it was saved

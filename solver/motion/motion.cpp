@@ -12,6 +12,8 @@ namespace {
 // another way.
 Case companion(const Case &input) {
   Case coarse = input;
+  for (Case &follower : coarse.followers)
+    follower = companion(follower);
   const Resolution chosen = choose_resolution(input);
   coarse.mesh.membrane = 9 * chosen.membrane_nodes / 10;
   coarse.mesh.wall = 9 * chosen.wall_points / 10;
@@ -55,9 +57,14 @@ MainMarch main_march(const Case &input, const Checkpoint &from, const Control &c
   const Resolution chosen = choose_resolution(input);
   Case finer = input;
   finer.mesh.membrane = 3 * chosen.membrane_nodes / 2;
+  Eigen::Index finer_nodes = finer.mesh.membrane;
+  for (Case &follower : finer.followers) {
+    follower.mesh.membrane = 3 * choose_resolution(follower).membrane_nodes / 2;
+    finer_nodes += follower.mesh.membrane;
+  }
   if (input.time.tolerance == 0)
     finer.time.tolerance = chosen.time_tolerance / 30;
-  const bool is_on_finer = from.position.size() == Eigen::Index{2} * finer.mesh.membrane;
+  const bool is_on_finer = from.position.size() == 2 * finer_nodes;
   if (!is_on_finer) {
     Outcome outcome = march_to_end(input, from, control, wrinkle_roughness_on_chosen_nodes(input.accuracy));
     if (!may_pass_on_finer_mesh(outcome))
@@ -90,8 +97,10 @@ Outcome march(const Case &input, const Checkpoint &from, const Control &control)
   if (coarse.status == Status::interrupted)
     outcome.status = Status::interrupted;
   else if (coarse.status == Status::reached || coarse.status == Status::burst) {
-    outcome.error_estimate = estimate_errors(outcome.last.series, coarse.last.series,
-                                             input.until.x_g.has_value(), input.time.scheme);
+    outcome.error_estimate =
+        estimate_errors(outcome.last.series, coarse.last.series, input.until.by_place(), input.time.scheme);
+    add_errors_of_followers(outcome.last, coarse.last, input.until.by_place(), input.time.scheme,
+                            outcome.error_estimate);
     add_errors_of_transit(input, outcome.last.series, coarse.last.series, outcome.error_estimate);
     if (bursts && coarse.status == Status::burst)
       add_errors_of_the_end(outcome.last.series, coarse.last.series, input.time.scheme,

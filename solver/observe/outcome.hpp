@@ -40,6 +40,7 @@ struct Checkpoint {
   long steps = 0;
   std::vector<SeriesRow> series;
   std::vector<Profile> profiles;
+  std::vector<CapsuleRecord> followers = {}; // of the capsules behind the leading one, at the same times
   Leg leg = {};
   std::vector<Checkpoint> companion = {}; // of a march that has reached its end: the coarser one beside it
 };

@@ -165,6 +165,31 @@ constexpr std::array quantities{
                      .of_the_pore = true,
                      .branch_column = 12,
                      .if_asked = true},
+    ReportedQuantity{.name = "pressure_share",
+                     .meaning =
+                         "of several capsules: the part of the pressure drop that is this one's, by the "
+                         "reciprocal theorem; the parts add up to `pressure_drop_reciprocal`",
+                     .value = &SeriesRow::pressure_share,
+                     .unit = pascal,
+                     .error = ErrorEstimate::of_marches,
+                     .of_the_pore = true,
+                     .if_asked = true},
+    ReportedQuantity{.name = "spacing",
+                     .meaning = "of a capsule behind another: the distance of their centres",
+                     .value = &SeriesRow::spacing,
+                     .unit = metre,
+                     .error = ErrorEstimate::of_marches,
+                     .of_the_pore = true,
+                     .if_asked = true},
+    ReportedQuantity{.name = "min_gap",
+                     .meaning =
+                         "of a capsule behind another, and of a steady train: the smallest distance of "
+                         "neighbouring membranes",
+                     .value = &SeriesRow::min_gap,
+                     .unit = metre,
+                     .error = ErrorEstimate::of_marches,
+                     .of_the_pore = true,
+                     .if_asked = true},
 };
 static_assert(quantities.size() * sizeof(double) == sizeof(SeriesRow), "a line for each member of SeriesRow");
 

@@ -2,8 +2,11 @@
 // What a run reports: a row of numbers for an instant, a profile along the meridian. Scales as in case/parameters.hpp.
 // Throws nothing.
 #include "base/linear_algebra.hpp"
+#include <cstddef>
+#include <fmt/format.h>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace capsule {
@@ -36,6 +39,9 @@ struct SeriesRow {
   double roughness = 0;
   double resistance = std::numeric_limits<double>::quiet_NaN();
   double resistance_long_conductor = std::numeric_limits<double>::quiet_NaN();
+  double pressure_share = std::numeric_limits<double>::quiet_NaN();
+  double spacing = std::numeric_limits<double>::quiet_NaN();
+  double min_gap = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct Profile {
@@ -48,6 +54,17 @@ struct Profile {
   Vector moment_meridional, moment_azimuthal;
   Vector curvature_meridional, curvature_azimuthal;
   Vector velocity_x, velocity_r;
+};
+
+// What stands behind a quantity's name where it is that of a capsule behind the leading one: "v_g#2" of the second.
+inline std::string capsule_mark(std::size_t capsule) {
+  return capsule == 0 ? "" : fmt::format("#{}", capsule + 1);
+}
+
+// What one capsule has left.
+struct CapsuleRecord {
+  std::vector<SeriesRow> series;
+  std::vector<Profile> profiles;
 };
 
 // The entry peak of the pressure drop: the first maximum after which it falls by more than a thousandth of

@@ -99,25 +99,62 @@ constexpr const char *file_name = "checkpoint.json";
 // {"identity":"...","digest":"...","run":...}
 constexpr std::string_view file_begin = "{\"identity\":", run_begin = "\"run\":";
 
+Json series_json(const std::vector<SeriesRow> &series) {
+  Json json = Json::array();
+  for (const SeriesRow &row : series) {
+    Json values = Json::array();
+    for (const ReportedQuantity &quantity : reported_quantities())
+      values.push_back(exact(row.*quantity.value));
+    json.push_back(std::move(values));
+  }
+  return json;
+}
+std::vector<SeriesRow> series_of(const Json &json) {
+  std::vector<SeriesRow> series;
+  for (const Json &values : json) {
+    SeriesRow row;
+    std::size_t i = 0;
+    for (const ReportedQuantity &quantity : reported_quantities())
+      row.*quantity.value = exact(values.at(i++));
+    series.push_back(row);
+  }
+  return series;
+}
+
+Json profiles_json(const std::vector<Profile> &profiles) {
+  Json json = Json::array();
+  for (const Profile &profile : profiles) {
+    Json values{{"time", exact(profile.time)}, {"x_g", exact(profile.x_g)}};
+    for (const ProfileQuantity &quantity : profile_quantities())
+      values[quantity.name] = exact(profile.*quantity.values);
+    json.push_back(std::move(values));
+  }
+  return json;
+}
+std::vector<Profile> profiles_of(const Json &json) {
+  std::vector<Profile> profiles;
+  for (const Json &values : json) {
+    Profile profile;
+    profile.time = exact(values.at("time"));
+    profile.x_g = exact(values.at("x_g"));
+    for (const ProfileQuantity &quantity : profile_quantities())
+      profile.*quantity.values = exact_vector(values.at(quantity.name));
+    profiles.push_back(std::move(profile));
+  }
+  return profiles;
+}
+
 Json to_json(const Checkpoint &checkpoint) {
   Json json;
   json["time"] = exact(checkpoint.time);
   json["steps"] = checkpoint.steps;
   json["position"] = exact(checkpoint.position);
-  json["series"] = Json::array();
-  for (const SeriesRow &row : checkpoint.series) {
-    Json values = Json::array();
-    for (const ReportedQuantity &quantity : reported_quantities())
-      values.push_back(exact(row.*quantity.value));
-    json["series"].push_back(std::move(values));
-  }
-  json["profiles"] = Json::array();
-  for (const Profile &profile : checkpoint.profiles) {
-    Json values{{"time", exact(profile.time)}, {"x_g", exact(profile.x_g)}};
-    for (const ProfileQuantity &quantity : profile_quantities())
-      values[quantity.name] = exact(profile.*quantity.values);
-    json["profiles"].push_back(std::move(values));
-  }
+  json["series"] = series_json(checkpoint.series);
+  json["profiles"] = profiles_json(checkpoint.profiles);
+  json["followers"] = Json::array();
+  for (const CapsuleRecord &follower : checkpoint.followers)
+    json["followers"].push_back(
+        {{"series", series_json(follower.series)}, {"profiles", profiles_json(follower.profiles)}});
   const Leg &leg = checkpoint.leg;
   json["leg"] = {{"rows", leg.rows},
                  {"jacobian", leg.jacobian},
@@ -135,21 +172,10 @@ Checkpoint checkpoint_of(const Json &json) {
   checkpoint.time = exact(json.at("time"));
   checkpoint.steps = json.at("steps");
   checkpoint.position = exact_vector(json.at("position"));
-  for (const Json &values : json.at("series")) {
-    SeriesRow row;
-    std::size_t i = 0;
-    for (const ReportedQuantity &quantity : reported_quantities())
-      row.*quantity.value = exact(values.at(i++));
-    checkpoint.series.push_back(row);
-  }
-  for (const Json &values : json.at("profiles")) {
-    Profile profile;
-    profile.time = exact(values.at("time"));
-    profile.x_g = exact(values.at("x_g"));
-    for (const ProfileQuantity &quantity : profile_quantities())
-      profile.*quantity.values = exact_vector(values.at(quantity.name));
-    checkpoint.profiles.push_back(std::move(profile));
-  }
+  checkpoint.series = series_of(json.at("series"));
+  checkpoint.profiles = profiles_of(json.at("profiles"));
+  for (const Json &follower : json.at("followers"))
+    checkpoint.followers.push_back({series_of(follower.at("series")), profiles_of(follower.at("profiles"))});
   const Json &leg = json.at("leg");
   checkpoint.leg = {unpacked_list(leg.at("answers")),
                     leg.at("jacobian"),

@@ -51,8 +51,8 @@ std::string revolved(const Vector &x, const Vector &r, const std::string &of_all
 
 } // namespace
 
-std::string surface_name(std::size_t index) {
-  return fmt::format("membrane_{:04}.vtp", index);
+std::string surface_name(std::size_t index, std::size_t capsule) {
+  return fmt::format("membrane{}_{:04}.vtp", capsule == 0 ? "" : fmt::format("-{}", capsule + 1), index);
 }
 
 // A strip of triangles between each two points.
@@ -94,11 +94,14 @@ std::string wall_vtp(const Pore &pore) {
   return revolved(x, r, "", "");
 }
 
-std::string surfaces_pvd(const std::vector<Profile> &profiles, const std::string &along) {
+std::string surfaces_pvd(const std::vector<Profile> &profiles, const std::string &along,
+                         std::size_t capsules) {
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
   for (std::size_t i = 0; i < profiles.size(); ++i)
-    text += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n",
-                        along.empty() ? number_text(profiles[i].time) : std::to_string(i), surface_name(i));
+    for (std::size_t k = 0; k < capsules; ++k)
+      text += fmt::format("<DataSet timestep=\"{}\"{} file=\"{}\"/>\n",
+                          along.empty() ? number_text(profiles[i].time) : std::to_string(i),
+                          capsules == 1 ? "" : fmt::format(" part=\"{}\"", k), surface_name(i, k));
   return text + "</Collection>\n</VTKFile>\n";
 }
 

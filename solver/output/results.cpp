@@ -5,6 +5,7 @@
 #include "case/case_file.hpp"
 #include "case/identity.hpp"
 #include "case/keys.hpp"
+#include "case/value_lists.hpp"
 #include "observe/outcome.hpp"
 #include "output/checkpoint.hpp"
 #include "output/paraview.hpp"
@@ -25,10 +26,34 @@ namespace fs = std::filesystem;
 
 constexpr const char *summary_name = "summary.json", *provenance_name = "run.json";
 
-bool is_surface(const std::string &name) {
-  constexpr std::string_view begin = "membrane_", end = ".vtp";
-  return name.size() > begin.size() + end.size() && name.starts_with(begin) && name.ends_with(end) &&
-         name.find_first_not_of("0123456789", begin.size()) == name.size() - end.size();
+// Takes a whole number away from the front of a text that begins with something and that number.
+bool take_numbered(std::string_view &text, std::string_view begin) {
+  const std::size_t end = std::min(text.find_first_not_of("0123456789", begin.size()), text.size());
+  if (!text.starts_with(begin) || end <= begin.size())
+    return false;
+  text.remove_prefix(end);
+  return true;
+}
+
+// "membrane_0003.vtp", "membrane-2_0003.vtp"
+bool is_surface(std::string_view name) {
+  constexpr std::string_view begin = "membrane";
+  if (!name.starts_with(begin))
+    return false;
+  name.remove_prefix(begin.size());
+  take_numbered(name, "-");
+  return take_numbered(name, "_") && name == ".vtp";
+}
+
+// "series-2.csv" of the second capsule
+bool is_of_follower(std::string_view name) {
+  for (const std::string_view table : {"series", "series_physical", "profiles"})
+    if (std::string_view rest = name; rest.starts_with(table)) {
+      rest.remove_prefix(table.size());
+      if (take_numbered(rest, "-") && rest == ".csv")
+        return true;
+    }
+  return false;
 }
 
 // Names that a run may give to its files.
@@ -37,7 +62,7 @@ bool is_result(const fs::path &file) {
                              "profiles.csv", "resolved.toml", provenance_name,
                              "membrane.pvd", "branch.csv",    "wall.vtp"};
   const std::string name = file.filename().string();
-  return std::ranges::find(names, name) != names.end() || is_surface(name);
+  return std::ranges::find(names, name) != names.end() || is_surface(name) || is_of_follower(name);
 }
 
 // The files that the run in a directory has left there.
@@ -88,17 +113,24 @@ std::string what_differs(const Case &first, const Case &second) {
 void write_results(const fs::path &directory, const Case &physics, const Outcome &outcome,
                    const Effort &effort, const Task &task) {
   const std::vector<Profile> &profiles = outcome.last.profiles;
-  FileContents files{{"series.csv", series_csv(outcome.last.series)}};
-  if (in_physical_units(physics, outcome))
-    files.emplace_back("series_physical.csv", physical_series_csv(physics, outcome.last.series));
-  files.emplace_back("profiles.csv", profiles_csv(profiles));
+  const std::vector<const Case *> capsules = capsules_of(physics);
+  FileContents files;
+  for (std::size_t k = 0; k < capsules.size(); ++k) {
+    const CapsuleRecord record =
+        k == 0 ? CapsuleRecord{outcome.last.series, profiles} : outcome.last.followers.at(k - 1);
+    const std::string mark = k == 0 ? "" : fmt::format("-{}", k + 1);
+    files.emplace_back("series" + mark + ".csv", series_csv(record.series));
+    if (in_physical_units(physics, outcome))
+      files.emplace_back("series_physical" + mark + ".csv", physical_series_csv(*capsules[k], record.series));
+    files.emplace_back("profiles" + mark + ".csv", profiles_csv(record.profiles));
+    for (std::size_t i = 0; i < record.profiles.size(); ++i)
+      files.emplace_back(surface_name(i, k), surface_vtp(record.profiles[i], outcome.along));
+  }
   if (!outcome.along.empty())
     files.emplace_back("branch.csv", branch_csv(outcome));
-  for (std::size_t i = 0; i < profiles.size(); ++i)
-    files.emplace_back(surface_name(i), surface_vtp(profiles[i], outcome.along));
   if (const auto pore = task.motion ? make_pore(physics.pore) : std::nullopt)
     files.emplace_back("wall.vtp", wall_vtp(*pore));
-  files.emplace_back("membrane.pvd", surfaces_pvd(profiles, outcome.along));
+  files.emplace_back("membrane.pvd", surfaces_pvd(profiles, outcome.along, capsules.size()));
   files.emplace_back("resolved.toml", resolved_toml(physics));
   files.emplace_back("summary.json", summary_text(physics, outcome, effort));
   remove_results(directory);

@@ -5,6 +5,7 @@
 //   series_physical.csv   the same in SI units, where the case has physical ones
 //   profiles.csv   one row per point of each profile
 //   membrane.pvd, membrane_0000.vtp ...   the profiles as surfaces of revolution, for ParaView
+//   series-2.csv, profiles-2.csv, membrane-2_0000.vtp ...   the same of a second capsule, and so on
 //   resolved.toml  the complete input, itself a case file
 //   branch.csv     of a branch of steady states: one row per point, its first column the key that varies
 //   run.json       provenance, the identity by which a finished run is found again, and the digest of each file

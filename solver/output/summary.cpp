@@ -3,6 +3,7 @@
 #include "base/json_file.hpp"
 #include "case/keys.hpp"
 #include "case/physical.hpp"
+#include "case/value_lists.hpp"
 #include "observe/outcome.hpp"
 #include "observe/quantities.hpp"
 #include "observe/transit.hpp"
@@ -57,6 +58,16 @@ Json physical_json(const Case &physics, const Json &summary) {
   return json;
 }
 
+// The last row of a capsule behind the leading one.
+Json end_of(const std::vector<SeriesRow> &series) {
+  Json json = Json::object();
+  if (!series.empty())
+    for (const ReportedQuantity &quantity : reported_quantities())
+      if (is_reported(quantity, series.back()))
+        json[quantity.name] = finite_or_null(series.back().*quantity.value);
+  return json;
+}
+
 } // namespace
 
 std::string summary_text(const Case &physics, const Outcome &outcome, const Effort &effort) {
@@ -65,6 +76,8 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   json["failure"] = outcome.failure.empty() ? Json() : Json(outcome.failure);
   json["message"] = outcome.message.empty() ? Json() : Json(outcome.message);
   const std::vector<SeriesRow> &series = outcome.last.series;
+  for (std::size_t k = 0; k < outcome.last.followers.size(); ++k)
+    json["capsules"][std::to_string(k + 2)] = end_of(outcome.last.followers[k].series);
   const bool has_pore = physics.flow.type == FlowType::pore;
   const auto applies = [&](const ReportedQuantity &quantity) { return has_pore || !quantity.of_the_pore; };
   for (const ReportedQuantity &quantity : reported_quantities())
@@ -112,6 +125,8 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   Case resolved = physics;
   const Resolution chosen = choose_resolution(physics);
   resolved.mesh.membrane = outcome.membrane_nodes > 0 ? outcome.membrane_nodes : chosen.membrane_nodes;
+  for (Case &follower : resolved.followers)
+    follower.mesh.membrane = choose_resolution(follower).membrane_nodes;
   if (physics.time.scheme == Scheme::bdf)
     resolved.time.tolerance = chosen.time_tolerance;
   json["parameters"] = Json::object();
@@ -146,6 +161,11 @@ Summary read_summary(const std::filesystem::path &directory) {
     for (const auto &[name, value] : json->items())
       if (value.is_number())
         summary.quantities[name] = value;
+    if (json->contains("capsules"))
+      for (const auto &[number, values] : json->at("capsules").items())
+        for (const auto &[name, value] : values.items())
+          if (value.is_number())
+            summary.quantities[fmt::format("{}#{}", name, number)] = value;
     if (json->contains("transit"))
       for (const auto &[name, value] : json->at("transit").items())
         if (value.is_number())

@@ -153,7 +153,7 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
       continue;
     ++unsteady;
     fastest = std::max(fastest, moving);
-    by_x_g = by_x_g || input.physics.until.x_g;
+    by_x_g = by_x_g || input.physics.until.by_place();
   }
   if (unsteady == 0)
     return "";

@@ -9,8 +9,9 @@ ExitCode list_keys() {
   std::string section;
   for (const Key &key : keys()) {
     const std::string here = key.name.substr(0, key.name.find('.'));
-    fmt::print("{}{:<33}{}\n{:<33}default: {}; allowed: {}\n", here == section ? "" : "\n", key.name,
-               key.meaning, "", default_text(key), allowed_text(key));
+    fmt::print("{}{:<33}{}\n{:<33}default: {}; allowed: {}{}\n", here == section ? "" : "\n", key.name,
+               key.meaning, "", default_text(key), allowed_text(key),
+               key.of_each_capsule ? "; a list for several capsules" : "");
     if (!key.scope.key.empty())
       fmt::print("{:<33}only with {}\n", "", scope_text(key));
     for (const std::string &note : key.notes)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
+#include <limits>
 
 namespace capsule {
 std::string duration_text(double seconds) {
@@ -17,9 +18,14 @@ double fraction_done(const Case &physics, double time, double x_g) {
   double fraction = 0;
   if (physics.until.time)
     fraction = time / *physics.until.time;
-  if (physics.until.x_g)
-    fraction =
-        std::max(fraction, (x_g - physics.capsule.start_x) / (*physics.until.x_g - physics.capsule.start_x));
+  const UntilSpec &until = physics.until;
+  if (until.by_place()) { // the last capsule arrives later by about the way between the two
+    const double behind = capsules_of(physics).back()->capsule.start_x - physics.capsule.start_x;
+    const double end =
+        std::min(until.x_g.value_or(std::numeric_limits<double>::infinity()),
+                 until.last_x_g ? *until.last_x_g - behind : std::numeric_limits<double>::infinity());
+    fraction = std::max(fraction, (x_g - physics.capsule.start_x) / (end - physics.capsule.start_x));
+  }
   return std::clamp(fraction, 0.0, 1.0);
 }
 

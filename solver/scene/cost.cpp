@@ -25,7 +25,8 @@ double estimated_seconds(const Case &physics) {
   const bool velocity_is_explicit =
       physics.flow.viscosity_ratio == 1 && !is_viscous(physics.membrane.viscosity);
   const double whole_entrance = velocity_is_explicit ? 0.7 : 2;
-  return whole_entrance * std::pow(chosen.membrane_nodes / 64.0, 2) * duration / 25;
+  const auto capsules = static_cast<double>(1 + physics.followers.size());
+  return capsules * whole_entrance * std::pow(chosen.membrane_nodes / 64.0, 2) * duration / 25;
 }
 
 } // namespace capsule

@@ -1,7 +1,10 @@
 #include "scene/scene.hpp"
-#include "base/failure.hpp"
+#include "flow/membrane_mesh.hpp"
+#include "geometry/gap.hpp"
 #include "geometry/quadrature.hpp"
 #include "geometry/reference_shape.hpp"
+#include <algorithm>
+#include <iterator>
 #include <numbers>
 
 namespace capsule {
@@ -16,10 +19,23 @@ Membrane paper_membrane(const Case &physics) {
   return make_membrane(physics.capsule, physics.membrane, basis, elements.points, elements.weights);
 }
 
-Vector start_position(const Membrane &membrane, double start_x) {
-  Vector start = membrane.initial;
-  start.head(membrane.basis.size()).array() += start_x;
-  return start;
+Membrane membrane_of(const Case &physics) {
+  return physics.numerics == Numerics::paper
+             ? paper_membrane(physics)
+             : standard_membrane(physics.capsule, physics.membrane, choose_resolution(physics));
+}
+
+void require_apart(const MeridianBasis &ahead, const Vector &position_ahead, const MeridianBasis &behind,
+                   const Vector &position_behind, std::size_t number) {
+  constexpr double beyond_nodes = 0.05; // how far a pole may lie beyond the nodes
+  const auto rear = position_ahead.head(ahead.size()).minCoeff();
+  const auto front = position_behind.head(behind.size()).maxCoeff();
+  if (front + beyond_nodes < rear - beyond_nodes)
+    return;
+  if (overlap(chain_of(ahead, position_ahead, 2), chain_of(behind, position_behind, 2)))
+    throw NumericsFailure(failure_kind::touching,
+                          fmt::format("capsules {} and {} touch, at x = {:.4g}", number, number + 1, front),
+                          "try a smaller accuracy, or a larger distance of their starts");
 }
 
 } // namespace
@@ -27,11 +43,35 @@ Vector start_position(const Membrane &membrane, double start_x) {
 Scene make_scene(const Case &physics) {
   Scene scene;
   scene.pore = make_pore(physics.pore);
-  scene.membrane = physics.numerics == Numerics::paper
-                       ? paper_membrane(physics)
-                       : standard_membrane(physics.capsule, physics.membrane, choose_resolution(physics));
-  scene.start = start_position(scene.membrane, physics.capsule.start_x);
+  scene.membrane = membrane_of(physics);
+  for (const Case &follower : physics.followers)
+    scene.followers.push_back(membrane_of(follower));
+  const std::vector<const Case *> capsules = capsules_of(physics);
+  const std::vector<std::vector<Eigen::Index>> rows = rows_of_capsules(scene);
+  Eigen::Index size = 0;
+  for (const std::vector<Eigen::Index> &part : rows)
+    size += std::ssize(part);
+  scene.start.resize(size);
+  for (std::size_t k = 0; k < capsules.size(); ++k) {
+    Vector start = scene.membrane_of(k).initial;
+    start.head(start.size() / 2).array() += capsules[k]->capsule.start_x;
+    scene.start(rows[k]) = start;
+  }
   return scene;
+}
+
+std::vector<std::vector<Eigen::Index>> rows_of_capsules(const Scene &scene) {
+  Eigen::Index nodes = 0;
+  for (std::size_t k = 0; k < scene.capsules(); ++k)
+    nodes += scene.membrane_of(k).basis.size();
+  std::vector<std::vector<Eigen::Index>> rows;
+  Eigen::Index first = 0;
+  for (std::size_t k = 0; k < scene.capsules(); ++k) {
+    const Eigen::Index n = scene.membrane_of(k).basis.size();
+    rows.push_back(rows_of_part(first, n, nodes));
+    first += n;
+  }
+  return rows;
 }
 
 Membrane standard_membrane(const CapsuleSpec &capsule, const MembraneSpec &material,
@@ -50,6 +90,16 @@ Vector place_in_flow(FlowType flow, Vector position) {
     x.array() -= x.mean();
   }
   return position;
+}
+
+void require_capsules(const Scene &scene, const Vector &position, const Advice &advice) {
+  if (scene.capsules() == 1)
+    return require_capsule(scene.pore, position, advice);
+  const std::vector<std::vector<Eigen::Index>> rows = rows_of_capsules(scene);
+  for_each_capsule(scene, [&](std::size_t k) { require_capsule(scene.pore, position(rows[k]), advice); });
+  for (std::size_t k = 1; k < rows.size(); ++k)
+    require_apart(scene.membrane_of(k - 1).basis, position(rows[k - 1]), scene.membrane_of(k).basis,
+                  position(rows[k]), k);
 }
 
 void require_capsule(const std::optional<Pore> &pore, const Vector &position, const Advice &advice) {

@@ -227,7 +227,8 @@ FlowState SteadySystem::flow(const Vector &position) const {
   const Vector nodal_load = load(position);
   FlowState state = flow_->solve(interaction, nodal_load, unused);
   state.pressure_drop /= 2 * images_on_each_side() + 1; // a part for each, as all loads are equal
-  state.pressure_drop_reciprocal = flow_->reciprocal_pressure_drop(interaction, nodal_load, state, unused);
+  state.pressure_drop_reciprocal =
+      flow_->reciprocal_pressure_drops(interaction, nodal_load, state, unused).sum();
   return state;
 }
 

@@ -53,6 +53,7 @@ inline Checkpoint random_checkpoint() {
       profile.*field = random_vector(points, random);
     checkpoint.profiles.push_back(profile);
   }
+  checkpoint.followers = {{{checkpoint.series[4], checkpoint.series[1]}, {checkpoint.profiles[1]}}, {}};
   checkpoint.leg.answers = {random_vector(24, random), {}, random_vector(1, random)};
   checkpoint.leg.jacobian = 2;
   checkpoint.leg.rows = 3;

@@ -33,7 +33,7 @@ inline RigidSphere rigid_sphere(const Flow &flow, const MeridianBasis &basis, do
   const Vector load = solution.head(2 * n);
   const FlowState state = flow.solve(interaction, load, recycled);
   return {solution[2 * n], state.pressure_drop,
-          flow.reciprocal_pressure_drop(interaction, load, state, traction), state.flow_rate};
+          flow.reciprocal_pressure_drops(interaction, load, state, traction).sum(), state.flow_rate};
 }
 
 } // namespace capsule

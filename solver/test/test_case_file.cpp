@@ -374,7 +374,8 @@ BOOST_AUTO_TEST_CASE(wrong_types) {
   check_errors(sphere + "viscosity_ratio = true\n",
                {"9:19: error: flow.viscosity_ratio must be a number, not true"});
   check_errors(sphere + "viscosity_ratio = [1, 2]\n",
-               {"9:19: error: flow.viscosity_ratio must be a number, not a l"});
+               {"9:19: error: capsules 1 and 2 start at the same place"});
+  check_errors("accuracy = [1e-3, 1e-4]\n" + sphere, {"1:12: error: accuracy must be a number, not a list"});
   check_errors(sphere + "viscosity_ratio = 2002-10-01\n",
                {"9:19: error: flow.viscosity_ratio must be a number, not"});
   check_errors(sphere + "type = 1\n", {"9:8: error: flow.type must be one of 'pore', 'extension', not 1"});

@@ -175,6 +175,9 @@ BOOST_AUTO_TEST_CASE(results_in_physical_units) {
   end.max_tension = 0.3;
   end.S_at_max_area_stretch = 0.4;
   end.S_at_max_tension = 0.5;
+  end.pressure_share = 2;
+  end.spacing = 3;
+  end.min_gap = 0.2;
   end.resistance = 1.5;
   end.resistance_long_conductor = 1.2;
   write_results(directory.path, physics, outcome_with(last), {});
@@ -191,7 +194,10 @@ BOOST_AUTO_TEST_CASE(results_in_physical_units) {
       {"S_at_max_area_stretch [m]", 2e-6},
       {"S_at_max_tension [m]", 2.5e-6},
       {"resistance [ohm]", 1.5 * 0.65 / (std::numbers::pi * 5e-6)},
-      {"resistance_long_conductor [ohm]", 1.2 * 0.65 / (std::numbers::pi * 5e-6)}};
+      {"resistance_long_conductor [ohm]", 1.2 * 0.65 / (std::numbers::pi * 5e-6)},
+      {"pressure_share [Pa]", 2 * 1e-3 * velocity / 5e-6},
+      {"spacing [m]", 15e-6},
+      {"min_gap [m]", 1e-6}};
   const auto lines = lines_of(directory.path / "series_physical.csv");
   BOOST_REQUIRE(lines.size() == 6u);
   const auto summary = read_json(directory.path / "summary.json").value().at("physical");
