@@ -112,7 +112,7 @@ private:
   }
 
   Vector begin_at(const SteadyState &state) {
-    const Vector start = states_->begin_with(state);
+    Vector start = states_->begin_with(state);
     make_problem(start);
     return start;
   }
@@ -124,7 +124,7 @@ private:
     problem_.longest = Vector::Constant(size, 0.5);
     const std::vector<std::string> names = states_->names();
     for (Eigen::Index j = 0; j < size; ++j) {
-      const std::string key = names[static_cast<std::size_t>(j)];
+      const std::string &key = names[static_cast<std::size_t>(j)];
       const std::string base = key.substr(0, key.find('#'));
       if (find_key(base) == nullptr)
         continue;
