@@ -4,11 +4,14 @@
 . "$(dirname "$0")/lib/program.sh"
 cat >case.toml <<'TOML'
 accuracy = 1e-5 # long enough to be interrupted
+pore.shape = "two-mouths"
+pore.exit_x = 6
+flow.drive = "pressure"
 capsule.radius = 0.9
 membrane.law = "skalak"
 membrane.dilatation = 0
 flow.capillary_number = 0.04
-until.x_g = 4
+until.x_g = 3
 output.profiles_at_x_g = [-1, 2]
 TOML
 
