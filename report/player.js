@@ -2,7 +2,7 @@
 // pressure-drop curve. The data are written into the page by report_page.cpp:
 //   fields[]: name, neutral (the value of the undeformed membrane)
 //   runs[]: case, name, opening_angle (radians), series {x_g, pressure_drop},
-//     frames[] {time, x_g, x[], r[], fields[][]}
+//     frames[] {time, x_g, capsules[] {x[], r[], fields[][]}}, the leading capsule first
 "use strict";
 (() => {
   const { fields, runs } = JSON.parse(document.getElementById("player-data").textContent);
@@ -35,7 +35,8 @@
   const range_of = (values) => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
   // What the run's field takes, and the neutral value in its middle: as many colours above as below.
   const field_scale = () => {
-    const [low, high] = range_of(chosen_run().frames.flatMap((frame) => frame.fields[colour_choice.value]));
+    const [low, high] = range_of(chosen_run().frames.flatMap((frame) =>
+      frame.capsules.flatMap((capsule) => capsule.fields[colour_choice.value])));
     const { neutral } = fields[colour_choice.value];
     const reach = Math.max(Math.abs(low - neutral), Math.abs(high - neutral)) || 1;
     return { low: Math.min(low, neutral), high: Math.max(high, neutral), neutral,
@@ -65,9 +66,13 @@
     const { frames } = chosen_run();
     const [i, share] = locate(frames.map((frame) => frame.x_g), place);
     const between = (a, b) => a.map((value, k) => mix(value, b[k], share));
-    const [a, b] = [frames[i], frames[i + 1]];
-    return { time: mix(a.time, b.time, share), x: between(a.x, b.x), r: between(a.r, b.r),
-             field: between(a.fields[colour_choice.value], b.fields[colour_choice.value]) };
+    const [before, after] = [frames[i], frames[i + 1]];
+    const capsules = before.capsules.map((a, k) => {
+      const b = after.capsules[k];
+      return { x: between(a.x, b.x), r: between(a.r, b.r),
+               field: between(a.fields[colour_choice.value], b.fields[colour_choice.value]) };
+    });
+    return { time: mix(before.time, after.time, share), capsules };
   };
 
   // A canvas as sharp as the screen, with its size in units of the page.
@@ -126,22 +131,23 @@
     pen.stroke();
     pen.setLineDash([]);
     const frame = frame_at(place), scale_of_field = field_scale();
-    pen.beginPath();
-    frame.x.forEach((x, i) => pen.lineTo(...at(x, frame.r[i])));
-    [...frame.x.keys()].reverse().forEach((i) => pen.lineTo(...at(frame.x[i], -frame.r[i])));
-    pen.fillStyle = style("--card");
-    pen.fill();
-    pen.lineWidth = 4;
-    pen.lineCap = "round";
-    for (const side of [1, -1])
-      for (let i = 0; i + 1 < frame.x.length; i++) {
-        pen.beginPath();
-        pen.moveTo(...at(frame.x[i], side * frame.r[i]));
-        pen.lineTo(...at(frame.x[i + 1], side * frame.r[i + 1]));
-        const mean = (frame.field[i] + frame.field[i + 1]) / 2;
-        pen.strokeStyle = colour_of(scale_of_field.share(mean));
-        pen.stroke();
-      }
+    for (const { x, r, field } of frame.capsules) {
+      pen.beginPath();
+      x.forEach((place_of_point, i) => pen.lineTo(...at(place_of_point, r[i])));
+      [...x.keys()].reverse().forEach((i) => pen.lineTo(...at(x[i], -r[i])));
+      pen.fillStyle = style("--card");
+      pen.fill();
+      pen.lineWidth = 4;
+      pen.lineCap = "round";
+      for (const side of [1, -1])
+        for (let i = 0; i + 1 < x.length; i++) {
+          pen.beginPath();
+          pen.moveTo(...at(x[i], side * r[i]));
+          pen.lineTo(...at(x[i + 1], side * r[i + 1]));
+          pen.strokeStyle = colour_of(scale_of_field.share((field[i] + field[i + 1]) / 2));
+          pen.stroke();
+        }
+    }
     draw_scale(scale_of_field);
     return frame.time;
   };

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -249,8 +250,8 @@ std::vector<std::size_t> profile_bounds(const std::vector<double> &time) {
   return bounds;
 }
 
-// The player's frame of the profile in the rows from `first` to before `last`.
-Json player_frame(const capsule::Columns &profiles, std::size_t first, std::size_t last) {
+// A capsule in a frame of the player: the profile in the rows from `first` to before `last`.
+Json player_capsule(const capsule::Columns &profiles, std::size_t first, std::size_t last) {
   constexpr std::size_t most_points = 128; // of a profile; the eye sees no more
   const std::size_t stride = 1 + (last - first) / most_points;
   const auto part = [&](const std::string &name) {
@@ -264,22 +265,50 @@ Json player_frame(const capsule::Columns &profiles, std::size_t first, std::size
   Json fields = Json::array();
   for (const PlayerField &field : player_fields)
     fields.push_back(part(field.column));
-  return {{"time", rounded(profiles.at("time")[first])},
-          {"x_g", rounded(profiles.at("x_g")[first])},
-          {"x", part("x")},
-          {"r", part("r")},
-          {"fields", fields}};
+  return {{"x", part("x")}, {"r", part("r")}, {"fields", fields}};
 }
 
-// Which capsule in which flow: "sphere, Skalak C = 0, R_eq = 0.9, ε = 0.04, λ = 10".
+// The frames of a run with all its capsules, whose profiles are of the same times; empty if there are too few to be played.
+Json player_frames(const fs::path &run) {
+  constexpr std::size_t fewest_frames = 20;
+  Json frames = Json::array();
+  for (std::size_t capsule = 1;; ++capsule) {
+    const fs::path file = run / (capsule == 1 ? "profiles.csv" : fmt::format("profiles-{}.csv", capsule));
+    if (!fs::exists(file))
+      return frames;
+    const capsule::Columns profiles = capsule::read_columns(file);
+    const std::vector<std::size_t> bounds = profile_bounds(profiles.at("time"));
+    if (bounds.size() <= fewest_frames)
+      return frames;
+    for (std::size_t k = 0; k + 1 < bounds.size(); ++k) {
+      if (capsule == 1)
+        frames.push_back({{"time", rounded(profiles.at("time")[bounds[k]])},
+                          {"x_g", rounded(profiles.at("x_g")[bounds[k]])},
+                          {"capsules", Json::array()}});
+      frames.at(k).at("capsules").push_back(player_capsule(profiles, bounds[k], bounds[k + 1]));
+    }
+  }
+}
+
+// Which capsule in which flow: "sphere, Skalak C = 0, R_eq = 0.9, ε = 0.04, λ = 10". Where several differ, what each has.
 std::string capsule_name(const Json &parameters) {
-  const auto number = [&](const std::string &key) {
-    return capsule::number_text(parameters.at(key).get<double>());
+  const auto values = [&](const std::string &key) {
+    const Json &value = parameters.at(key);
+    return value.is_array() ? value : Json::array({value});
   };
-  const double aspect_ratio = parameters.at("capsule.aspect_ratio").get<double>();
-  std::string name = aspect_ratio == 1 ? "sphere" : "spheroid A/B = " + number("capsule.aspect_ratio");
+  const auto number = [&](const std::string &key) {
+    std::vector<std::string> texts;
+    for (const Json &value : values(key))
+      texts.push_back(capsule::number_text(value.get<double>()));
+    return fmt::format("{}", fmt::join(texts, " and "));
+  };
+  const Json &aspect_ratio = parameters.at("capsule.aspect_ratio");
+  std::string name = aspect_ratio.is_null() ? "biconcave"
+                     : aspect_ratio == 1.0  ? "sphere"
+                                            : "spheroid A/B = " + number("capsule.aspect_ratio");
+  const Json laws_there = values("membrane.law");
   for (const capsule::Law *law : capsule::laws())
-    if (parameters.at("membrane.law") == law->name) {
+    if (std::ranges::find(laws_there, Json(law->name)) != laws_there.end()) {
       name += fmt::format(", {}", law->title);
       for (const capsule::LawParameter &declared : law->parameters)
         name += fmt::format(" {} = {}", declared.symbol, number(std::string("membrane.") + declared.name));
@@ -292,25 +321,24 @@ std::string capsule_name(const Json &parameters) {
 
 // The runs that have enough profiles to be played.
 std::string player_data(const std::vector<fs::path> &runs) {
-  constexpr std::size_t fewest_frames = 20;
   Json played = Json::array();
   for (const fs::path &run : runs) {
-    const capsule::Columns profiles = capsule::read_columns(run / "profiles.csv");
-    const std::vector<std::size_t> bounds = profile_bounds(profiles.at("time"));
-    if (bounds.size() <= fewest_frames)
+    const Json frames = player_frames(run);
+    if (frames.empty())
       continue;
-    Json frames = Json::array();
-    for (std::size_t k = 0; k + 1 < bounds.size(); ++k)
-      frames.push_back(player_frame(profiles, bounds[k], bounds[k + 1]));
     const Json parameters = Json::parse(capsule::read_file(run / "summary.json")).at("parameters");
+    const Json &shape = parameters.at("pore.shape");
+    if (shape.is_null() || shape == "none") // an extension, without walls
+      continue;
+    const Json &opening_angle = parameters.at("pore.opening_angle_deg"); // a tube has none
     const Json &title = parameters.at("title");
     const capsule::Columns series = capsule::read_columns(run / "series.csv");
     played.push_back(
         {{"case", title.is_null() ? run.parent_path().filename().string() : title.get<std::string>()},
          {"name", capsule_name(parameters)},
-         {"opening_angle", parameters.at("pore.opening_angle_deg").get<double>() * std::numbers::pi / 180},
-         {"second_mouth",
-          parameters.at("pore.shape") == "two-mouths" ? parameters.at("pore.exit_x") : Json()},
+         {"opening_angle",
+          opening_angle.is_null() ? 0 : opening_angle.get<double>() * std::numbers::pi / 180},
+         {"second_mouth", shape == "two-mouths" ? parameters.at("pore.exit_x") : Json()},
          {"series",
           {{"x_g", rounded(series.at("x_g"))}, {"pressure_drop", rounded(series.at("pressure_drop"))}}},
          {"frames", frames}});

@@ -43,8 +43,11 @@ profiles_at_x_g = [-2.4, -2.3, -2.2, -2.1, -2, -1.9, -1.8, -1.7, -1.6, -1.5, -1.
 [sweep]
 "flow.viscosity_ratio" = [1, 3]
 END
+mkdir -p cases/two
+sed '/^start_x/s/-2.5/[-2.5, -4.2]/; /sweep/,$d' cases/small/case.toml > cases/two/case.toml
 "$capsule" run cases/small > /dev/null 2>&1
-"$report" page.html cases/small
+"$capsule" run cases/two > /dev/null 2>&1
+"$report" page.html cases/small cases/two
 if grep -Eo '(src|href)="(https?:)?//[^"]*"' page.html; then
   fail "the page refers to another place"
 fi
@@ -80,7 +83,7 @@ drawing='document.getElementById("pore").toDataURL()'
 
 call POST "$at/url" "{\"url\": \"file://$place/page.html\"}" > /dev/null
 expect "the page loads" "A capsule enters a pore: report" "$(script document.title)"
-expect "both runs can be chosen" 2 "$(script 'document.getElementById("run").length')"
+expect "all runs can be chosen" 3 "$(script 'document.getElementById("run").length')"
 expect "it starts before the mouth" "xg = -1.00" "$(script "$readout" | cut -d, -f1)"
 expect "the solid around the pore is drawn" '#c9ced4' "$(script '(() => {
   const pore = document.getElementById("pore"), corner = pore.getContext("2d").getImageData(pore.width - 3, 3, 1, 1).data;
@@ -120,6 +123,13 @@ before=$(script "$drawing" | cksum)
 call POST "$at/element/$(element colour)/value" '{"text": "\uE015"}' > /dev/null
 test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not follow the colour"
 echo "ok: run and colour change the picture"
+expect "a run of two capsules has both in each frame" true "$(script '(() => {
+  const { runs } = JSON.parse(document.getElementById("player-data").textContent);
+  return runs[2].frames.every((frame) => frame.capsules.length === 2) })()')"
+before=$(script "$drawing" | cksum)
+call POST "$at/element/$(element run)/value" '{"text": "\uE015"}' > /dev/null
+test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not follow the run of two capsules"
+picture two
 script 'document.getElementById("place").value = -2' > /dev/null
 call POST "$at/element/$(element play)/click" '{}' > /dev/null
 sleep 0.5
