@@ -11,6 +11,7 @@
 #include "program/progress.hpp"
 #include "program/run_list.hpp"
 #include "scene/cost.hpp"
+#include "scene/scene.hpp"
 #include "steady/branch.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
@@ -114,11 +115,16 @@ ExitCode show_case(const Arguments &arguments) {
     seconds_left += left;
     const Case &physics = run_input.physics;
     fmt::print(
-        "# {}: {}\n{}{}\n", name_of(run_input, input),
+        "# {}: {}\n{}{}{}\n", name_of(run_input, input),
         state.finished ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
                        : fmt::format("{}, about {} to go", unfinished_text(state), duration_text(left)),
         has_physical(physics) ? fmt::format("# {}\n# {}\n", flow_rate_text(physics), reynolds_text(physics))
                               : "",
+        physics.followers.empty()
+            ? ""
+            : fmt::format(
+                  "# in the tube capsules move as if alone, to this accuracy, beyond a gap of about {:.1f}\n",
+                  gap_without_interaction(physics.accuracy)),
         resolved_toml(physics));
   }
   fmt::print("# {}, {} finished, about {} of one core to go\n", counted(input.runs.size(), "run"), finished,

@@ -39,6 +39,10 @@ Membrane standard_membrane(const CapsuleSpec &capsule, const MembraneSpec &mater
 // place, and rounding errors would grow as exp(t).
 Vector place_in_flow(FlowType flow, Vector position);
 
+// The gap in a tube beyond which capsules do not feel each other, to a relative accuracy: what one does to the liquid falls
+// with the distance d like exp(-4.466 d), the slowest of Stokes flows at rest on the wall.
+double gap_without_interaction(double accuracy);
+
 // What to try where the membrane touches the wall or reaches the end of the pore.
 struct Advice {
   const char *at_the_wall, *at_the_end;
