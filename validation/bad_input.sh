@@ -80,6 +80,8 @@ printf '%s\ncapsule.start_x = [0, -1]\n' "$several" | bad '6:19: error: capsules
 printf '%s\ncapsule.start_x = [0, 3]\n' "$several" | bad '6:19: error: capsule 2 starts before the one that is to lead it'
 printf '%s\ncapsule.start_x = [0, "-3"]\n' "$several" | bad '6:19: error: capsule.start_x must be a number'
 printf '%s\nuntil.last_x_g = 3\n' "$several" | bad '6:18: error: until.last_x_g is of several capsules'
+printf '%s\ncapsule.start_x = [0, -3]\nuntil.last_x_g = 20\n' "$several" |
+  bad '7:18: error: at until.last_x_g = 20 the last capsule would be at the end of the way'
 printf '%s\ncapsule.start_x = [0, -3]\noutput.resistance = true\n' "$several" |
   bad '7:21: error: the resistance of several capsules is not computed'
 echo "$good

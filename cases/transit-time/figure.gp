@@ -16,7 +16,7 @@ of(r, driven, y) = column("sizes") == 1 && abs(column("radius") - r) < 1e-9 && c
 radii = "0.7 0.9 1 1.1"
 
 eval figure("transit-time", 16, 8)
-set multiplot layout 1, 2 margins 0.08, 0.99, 0.15, 0.92 spacing 0.08, 0
+set multiplot layout 1, 2 margins 0.08, 0.99, 0.15, 0.89 spacing 0.08, 0
 set logscale x; set xrange [0.004:0.13]; set yrange [5:18]
 set xlabel "{/:Italic ε}"; set ylabel "transit time / (π{/:Italic R}_t^3/{/:Italic Q}_0)"
 set key right top title "{/:Italic R}_{eq} / {/:Italic R}_t"

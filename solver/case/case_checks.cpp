@@ -358,7 +358,15 @@ void check_capsules(const Chosen &chosen, const Case &physics, const Task &task)
           fmt::format("their centres have to be more than {:.4g} apart",
                       extent(ahead).half_length + extent(behind).half_length));
   }
-  const double last_start = capsules.back()->capsule.start_x;
+  const CapsuleSpec &last = capsules.back()->capsule;
+  if (physics.until.last_x_g &&
+      *physics.until.last_x_g + extent(last).half_length >= end_of_way(physics.pore))
+    chosen.complain({"until.last_x_g"},
+                    fmt::format("at until.last_x_g = {} the last capsule would be at the end of the way",
+                                number_text(*physics.until.last_x_g)),
+                    fmt::format("that is x = {}, and the leading capsule is to be before it, too",
+                                number_text(end_of_way(physics.pore))));
+  const double last_start = last.start_x;
   if (physics.until.last_x_g && *physics.until.last_x_g <= last_start)
     chosen.complain({"until.last_x_g"},
                     fmt::format("until.last_x_g = {} lies upstream of the last capsule's start",

@@ -56,11 +56,6 @@ struct Builder {
     }
   }
 
-  // What a directory may be called by: no unit, no slash.
-  std::string si_number(const Key &key) const {
-    return number_text(std::get<Measured>(key.field).member.of(run.physics).si);
-  }
-
   void take_values() {
     for (std::size_t i = 0; i < chosen.reader.assignments.size(); ++i) {
       const Assignment &assignment = chosen.reader.assignments[i];
@@ -90,21 +85,6 @@ struct Builder {
                                                          why_meaningless(key, run.physics),
                                                          fmt::format("it belongs to {}", scope_text(key))});
       reset_value(key, run.physics);
-    }
-  }
-
-  // By the swept values that make a difference.
-  void name_run() {
-    for (std::size_t i = 0; i < chosen.reader.assignments.size(); ++i) {
-      const Assignment &assignment = chosen.reader.assignments[i];
-      const Key &key = *assignment.key;
-      if (!assignment.sweep || !means_something(key, run.physics) ||
-          (!task.motion && key.steady == SteadyRole::none))
-        continue;
-      const bool measured = std::holds_alternative<Measured>(key.field);
-      run.name +=
-          fmt::format("{}{}={}", run.name.empty() ? "" : ",", short_name(key),
-                      measured ? si_number(key) : plain_text(assignment.values[chosen.selection[i]].value));
     }
   }
 
@@ -243,6 +223,33 @@ bool lists_agree(const Chosen &chosen) {
   return true;
 }
 
+// What a directory may be called by, without unit or slash: the values of all capsules in SI units.
+std::string si_text(const Key &key, const Case &physics) {
+  std::vector<Value> values;
+  for (const Case *capsule : capsules_of(physics))
+    values.emplace_back(std::get<Measured>(key.field).member.of(*capsule).si);
+  return plain_text(joined(values));
+}
+
+// By the swept values that make a difference to a capsule.
+std::string run_name(const Chosen &chosen, const Case &physics, const Task &task) {
+  std::string name;
+  const std::vector<const Case *> capsules = capsules_of(physics);
+  for (std::size_t i = 0; i < chosen.reader.assignments.size(); ++i) {
+    const Assignment &assignment = chosen.reader.assignments[i];
+    const Key &key = *assignment.key;
+    const auto counts = [&](const Case *capsule) { return means_something(key, *capsule); };
+    if (!assignment.sweep || std::ranges::none_of(capsules, counts) ||
+        (!task.motion && key.steady == SteadyRole::none))
+      continue;
+    name += fmt::format("{}{}={}", name.empty() ? "" : ",", short_name(key),
+                        std::holds_alternative<Measured>(key.field)
+                            ? si_text(key, physics)
+                            : plain_text(assignment.values[chosen.selection[i]].value));
+  }
+  return name;
+}
+
 // All capsules of one run, each as a case of its own; the leading one's has the others behind it.
 void build_run(Family &family, const Selection &selection, const Task &task, bool valid, RunInput &run) {
   CaseReader &reader = family.reader;
@@ -255,7 +262,6 @@ void build_run(Family &family, const Selection &selection, const Task &task, boo
     builder.take_values();
     builder.choose_shape();
     builder.leave_out(usage);
-    builder.name_run();
     builder.derive();
     builder.complete();
     const bool whole = builder.has_required() || task.fit; // what a fit misses may be a misspelt unknown
@@ -270,6 +276,7 @@ void build_run(Family &family, const Selection &selection, const Task &task, boo
     else
       run.physics.followers.push_back(std::move(builder.run.physics));
   }
+  run.name = run_name({reader, selection}, run.physics, task);
   if (good)
     check_capsules({reader, selection}, run.physics, task);
 }

@@ -163,10 +163,16 @@ void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fi
   }
 }
 
-void add_errors_of_the_end(const std::vector<SeriesRow> &fine, const std::vector<SeriesRow> &coarse,
-                           Scheme scheme, std::map<std::string, double> &errors) {
-  for (const auto &[name, value] : {std::pair("time", &SeriesRow::time), std::pair("x_g", &SeriesRow::x_g)})
-    errors[name] = safety_of(name, scheme) * std::abs(fine.back().*value - coarse.back().*value);
+void add_errors_of_the_end(const Checkpoint &fine, const Checkpoint &coarse, Scheme scheme,
+                           std::map<std::string, double> &errors) {
+  const auto add = [&](const std::vector<SeriesRow> &one, const std::vector<SeriesRow> &other,
+                       const std::string &mark) {
+    for (const auto &[name, value] : {std::pair("time", &SeriesRow::time), std::pair("x_g", &SeriesRow::x_g)})
+      errors[name + mark] = safety_of(name, scheme) * std::abs(one.back().*value - other.back().*value);
+  };
+  add(fine.series, coarse.series, "");
+  for (std::size_t k = 0; k < fine.followers.size(); ++k)
+    add(fine.followers[k].series, coarse.followers[k].series, capsule_mark(k + 1));
 }
 
 } // namespace capsule

@@ -27,8 +27,9 @@ void add_errors_of_followers(const Checkpoint &fine, const Checkpoint &coarse, b
 void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fine,
                            const std::vector<SeriesRow> &coarse, std::map<std::string, double> &errors);
 
-// Where both marches end by themselves: "time" and "x_g" of the last rows.
-void add_errors_of_the_end(const std::vector<SeriesRow> &fine, const std::vector<SeriesRow> &coarse,
-                           Scheme scheme, std::map<std::string, double> &errors);
+// Where both marches end by themselves, or where the last of several capsules arrives: "time" and "x_g" of the last rows,
+// and "x_g#2" and so on.
+void add_errors_of_the_end(const Checkpoint &fine, const Checkpoint &coarse, Scheme scheme,
+                           std::map<std::string, double> &errors);
 
 } // namespace capsule

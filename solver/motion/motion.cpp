@@ -72,6 +72,8 @@ MainMarch main_march(const Case &input, const Checkpoint &from, const Control &c
   }
   Outcome outcome = march_to_end(finer, is_on_finer ? from : Checkpoint{}, control);
   outcome.membrane_nodes = finer.mesh.membrane;
+  for (const Case &follower : finer.followers)
+    outcome.nodes_of_followers.push_back(follower.mesh.membrane);
   return {finer, std::move(outcome)};
 }
 
@@ -102,9 +104,8 @@ Outcome march(const Case &input, const Checkpoint &from, const Control &control)
     add_errors_of_followers(outcome.last, coarse.last, input.until.by_place(), input.time.scheme,
                             outcome.error_estimate);
     add_errors_of_transit(input, outcome.last.series, coarse.last.series, outcome.error_estimate);
-    if (bursts && coarse.status == Status::burst)
-      add_errors_of_the_end(outcome.last.series, coarse.last.series, input.time.scheme,
-                            outcome.error_estimate);
+    if ((bursts && coarse.status == Status::burst) || (!bursts && input.until.last_x_g))
+      add_errors_of_the_end(outcome.last, coarse.last, input.time.scheme, outcome.error_estimate);
   } else
     outcome.message = "no error estimate, because the coarse companion failed: " + coarse.message;
   return outcome;

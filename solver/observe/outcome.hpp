@@ -62,7 +62,8 @@ struct Outcome {
   std::map<std::string, double> error_estimate;
   // Other quantities of summary.json.
   std::map<std::string, double> further = {};
-  int membrane_nodes = 0; // 0: those of choose_resolution
+  int membrane_nodes = 0;                   // 0: those of choose_resolution
+  std::vector<int> nodes_of_followers = {}; // empty: those of choose_resolution
   // Only of a branch: the key that varies, its points and its folds.
   std::string along = {};
   std::vector<BranchRow> branch = {};

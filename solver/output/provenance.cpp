@@ -45,7 +45,7 @@ bool is_as_written(Json json) {
 
 // The files that an altered run.json still names: a line for each, "series.csv": "0123456789abcdef".
 std::map<std::string, std::string> digests_in(const std::string &text) {
-  static const std::regex entry("^ *\"([A-Za-z0-9_]+\\.[a-z]+)\": *\"([0-9a-f]{16})\",?$");
+  static const std::regex entry("^ *\"([A-Za-z0-9_-]+\\.[a-z]+)\": *\"([0-9a-f]{16})\",?$");
   constexpr std::size_t longest = 200;
   std::map<std::string, std::string> digests;
   std::istringstream stream(text);

@@ -125,8 +125,10 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   Case resolved = physics;
   const Resolution chosen = choose_resolution(physics);
   resolved.mesh.membrane = outcome.membrane_nodes > 0 ? outcome.membrane_nodes : chosen.membrane_nodes;
-  for (Case &follower : resolved.followers)
-    follower.mesh.membrane = choose_resolution(follower).membrane_nodes;
+  for (std::size_t k = 0; k < resolved.followers.size(); ++k)
+    resolved.followers[k].mesh.membrane = outcome.nodes_of_followers.empty()
+                                              ? choose_resolution(resolved.followers[k]).membrane_nodes
+                                              : outcome.nodes_of_followers.at(k);
   if (physics.time.scheme == Scheme::bdf)
     resolved.time.tolerance = chosen.time_tolerance;
   json["parameters"] = Json::object();

@@ -120,7 +120,7 @@ ExitCode show_case(const Arguments &arguments) {
                        : fmt::format("{}, about {} to go", unfinished_text(state), duration_text(left)),
         has_physical(physics) ? fmt::format("# {}\n# {}\n", flow_rate_text(physics), reynolds_text(physics))
                               : "",
-        physics.followers.empty()
+        physics.followers.empty() || physics.flow.drive == DriveBy::pressure
             ? ""
             : fmt::format(
                   "# in the tube capsules move as if alone, to this accuracy, beyond a gap of about {:.1f}\n",

@@ -233,6 +233,28 @@ BOOST_AUTO_TEST_CASE(lists_of_a_case) {
   BOOST_TEST(!Selector("start_x=1_-3").selects(sweep.runs[1].physics));
 }
 
+// No run of a sweep gets lost: values that only a follower has a use for, and quantities in which followers differ.
+BOOST_AUTO_TEST_CASE(names_of_swept_lists) {
+  const TemporaryDirectory directory;
+  const auto file =
+      directory.write("pair.toml", "membrane.law = ['neo-hookean', 'skalak']\ncapsule.radius = 0.8\n"
+                                   "capsule.start_x = [1, -3]\nflow.capillary_number = 0.05\n"
+                                   "sweep.'membrane.dilatation' = [1, 5, 10]\n");
+  const CaseInput laws = read_case(file);
+  BOOST_REQUIRE(laws.runs.size() == 3u);
+  BOOST_TEST(laws.runs[2].name == "dilatation=10");
+  const auto physical = directory.write(
+      "physical.toml",
+      "membrane.law = 'skalak'\ncapsule.start_x = [1, -3]\n[physical]\ntube_radius = '5 um'\ncapsule_radius "
+      "= '4 um'\n"
+      "viscosity = '1 mPa.s'\nflow_rate = '0.1 nl/s'\n[sweep]\n"
+      "'physical.shear_modulus' = [['20 uN/m', '30 uN/m'], ['20 uN/m', '50 uN/m'], '20 uN/m']\n");
+  const CaseInput moduli = read_case(physical);
+  BOOST_REQUIRE(moduli.runs.size() == 3u);
+  BOOST_TEST(moduli.runs[1].name == "shear_modulus=2e-5_5e-5");
+  BOOST_TEST(moduli.runs[2].name == "shear_modulus=2e-5");
+}
+
 BOOST_AUTO_TEST_CASE(files_and_expressions) {
   const TemporaryDirectory directory;
   Case physics = in_a_tube(neo_hookean, 0.6, {1, -1});
