@@ -125,6 +125,12 @@ wall_x(t) = t < 0 ? sinh(t) / tan(opening_angle) : t
 wall_r(t) = t < 0 ? cosh(t) : 1
 wall = "sample [t=-3:20] '+' using (wall_x(t)):(wall_r(t)):(10) with filledcurves linecolor rgb wall_colour, \
                [t=-3:20] '+' using (wall_x(t)):(-wall_r(t)):(-10) with filledcurves linecolor rgb wall_colour"
+# The same around a pore with two mouths, where second_mouth is its end:  plot @both_walls, ...
+wall_2x(t) = second_mouth - wall_x(second_mouth - t)
+both_walls = "sample [t=-3:second_mouth + 3] '+' using (t < second_mouth ? wall_x(t) : wall_2x(t)):(t < second_mouth ? wall_r(t) : wall_r(second_mouth - t)):(10) \
+  with filledcurves linecolor rgb wall_colour, \
+  [t=-3:second_mouth + 3] '+' using (t < second_mouth ? wall_x(t) : wall_2x(t)):(t < second_mouth ? -wall_r(t) : -wall_r(second_mouth - t)):(-10) \
+  with filledcurves linecolor rgb wall_colour"
 # The axes of a view along the pore, with equal scales:  eval view(left, right, bottom, top)
 view(left, right, bottom, top) = sprintf("set size ratio -1; set xrange [%g:%g]; set yrange [%g:%g]; ", \
   left, right, bottom, top)."set xlabel x_label; set ylabel r_label"

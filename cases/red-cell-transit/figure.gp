@@ -8,11 +8,6 @@ do for [i=1:count] { begun[i] = start(i) }
 plain = ""; with_friction = ""
 do for [i=1:count] { if (viscous(i)) { with_friction = with_friction." ".i } else { plain = plain." ".i } }
 second_mouth = parameter(run(1), "pore.exit_x")
-wall_2x(t) = second_mouth - wall_x(second_mouth - t)
-both_walls = "sample [t=-3:second_mouth + 3] '+' using (t < second_mouth ? wall_x(t) : wall_2x(t)):(t < second_mouth ? wall_r(t) : wall_r(second_mouth - t)):(10) \
-  with filledcurves linecolor rgb wall_colour, \
-  [t=-3:second_mouth + 3] '+' using (t < second_mouth ? wall_x(t) : wall_2x(t)):(t < second_mouth ? -wall_r(t) : -wall_r(second_mouth - t)):(-10) \
-  with filledcurves linecolor rgb wall_colour"
 with_viscosity(e) = case."-normal,capillary_number=".e.",shear_viscosity=200"
 without(e) = case."-normal,capillary_number=".e.",shear_viscosity=0"
 stiff = case."-stiff"

@@ -9,11 +9,6 @@ do for [i=1:count] { mouth[i] = start(i) }
 spheres = ""; ellipsoids = ""
 do for [i=1:count] { if (ratio(i) == 1) { spheres = spheres." ".i } else { ellipsoids = ellipsoids." ".i } }
 second_mouth = parameter(run(1), "pore.exit_x")
-wall_2x(t) = second_mouth - wall_x(second_mouth - t)
-both_walls = "sample [t=-3:second_mouth + 3] '+' using (t < second_mouth ? wall_x(t) : wall_2x(t)):(t < second_mouth ? wall_r(t) : wall_r(second_mouth - t)):(10) \
-  with filledcurves linecolor rgb wall_colour, \
-  [t=-3:second_mouth + 3] '+' using (t < second_mouth ? wall_x(t) : wall_2x(t)):(t < second_mouth ? -wall_r(t) : -wall_r(second_mouth - t)):(-10) \
-  with filledcurves linecolor rgb wall_colour"
 
 stiff = run(int(word(spheres, 1)))
 stats series(stiff) using "resistance_long_conductor" name "long" nooutput

@@ -251,8 +251,9 @@ std::string run_name(const Chosen &chosen, const Case &physics, const Task &task
 }
 
 // All capsules of one run, each as a case of its own; the leading one's has the others behind it.
-void build_run(Family &family, const Selection &selection, const Task &task, bool valid, RunInput &run) {
+RunInput build_run(Family &family, const Selection &selection, const Task &task, bool valid) {
   CaseReader &reader = family.reader;
+  RunInput run;
   bool good = valid;
   const std::size_t capsules = Chosen{reader, selection}.capsules();
   for (std::size_t k = 0; k < capsules; ++k) {
@@ -279,6 +280,7 @@ void build_run(Family &family, const Selection &selection, const Task &task, boo
   run.name = run_name({reader, selection}, run.physics, task);
   if (good)
     check_capsules({reader, selection}, run.physics, task);
+  return run;
 }
 
 void build_runs(Family &family, const Task &task) {
@@ -294,10 +296,9 @@ void build_runs(Family &family, const Task &task) {
   const bool valid = reader.text.errors.empty();
   std::set<std::string> names;
   for (const Selection &selection : all_selections(reader.assignments)) {
-    RunInput run;
     if (!lists_agree({reader, selection}))
       return;
-    build_run(family, selection, task, valid, run);
+    RunInput run = build_run(family, selection, task, valid);
     if (!has_usable_name(family, run.name))
       return;
     // Swept values that mean nothing to a run would only make it again.

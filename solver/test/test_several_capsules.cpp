@@ -4,6 +4,7 @@
 #include "case/case_file.hpp"
 #include "case/identity.hpp"
 #include "compare/run_values.hpp"
+#include "extrapolation.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
 #include "motion/dynamics.hpp"
@@ -65,11 +66,6 @@ Vector stretched(const Dynamics &dynamics, double stretch) {
     position(rows) = part;
   }
   return position;
-}
-
-double extrapolated(const std::array<double, 3> &values) {
-  const double first = 2 * values[1] - values[0], second = 2 * values[2] - values[1];
-  return (4 * second - first) / 3;
 }
 
 const char *const pair_file =

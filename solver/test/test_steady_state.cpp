@@ -1,5 +1,6 @@
 // Steady shapes and small motions about them: exact limits, and the motion's own equations differentiated.
 #include "base/failure.hpp"
+#include "disturbed_state.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
 #include "motion/dynamics.hpp"
@@ -171,18 +172,7 @@ BOOST_AUTO_TEST_CASE(newtons_matrix_is_the_derivative_of_the_equations) {
     physics.membrane.bending_ratio = 1e-2;
     physics.accuracy = 1e-6;
     const auto system = system_on_mesh(physics, spectral_basis(56).nodes);
-    const Eigen::Index n = system->nodes();
-    const auto zeta = system->membrane().basis.nodes.array();
-    Vector unknowns = system->initial();
-    unknowns.head(n).array() += 0.02 * (3 * zeta).cos() + 0.03 * (2 * zeta).cos();
-    unknowns.segment(n, n).array() += 0.02 * zeta.sin() - 0.01 * (4 * zeta).sin();
-    system->fit_tube(unknowns);
-    Vector direction = Vector::Zero(2 * n + 2);
-    direction.head(n) = (2 * zeta).cos() + 0.3 * (3 * zeta).cos();
-    direction.segment(n, n) = zeta.sin() - 0.4 * (4 * zeta).sin();
-    constexpr double h = 1e-4;
-    const auto at = [&](double step) { return system->residual(unknowns + step * h * direction); };
-    const Vector differences = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
+    const auto [unknowns, direction, differences] = disturb(*system);
     const SteadySystem::Linearisation linear = system->linearise(unknowns);
     BOOST_TEST(linear.residual.cwiseAbs().maxCoeff() > 0.3);
     BOOST_TEST((linear.jacobian * direction - differences).cwiseAbs().maxCoeff() <

@@ -2,6 +2,8 @@
 // periods, and derivatives against differences.
 #include "base/failure.hpp"
 #include "case/key_path.hpp"
+#include "disturbed_state.hpp"
+#include "extrapolation.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
 #include "steady/newton.hpp"
@@ -30,12 +32,6 @@ Case train_case(const MembraneLaw &law, double radius, double capillary_number, 
 
 double largest(const Vector &v) {
   return v.cwiseAbs().maxCoeff();
-}
-
-// The limit of values at h, h/2 and h/4.
-double extrapolated(const std::array<double, 3> &values) {
-  const double first = 2 * values[1] - values[0], second = 2 * values[2] - values[1];
-  return (4 * second - first) / 3;
 }
 
 } // namespace
@@ -99,18 +95,7 @@ BOOST_AUTO_TEST_CASE(two_meshes_agree) {
 BOOST_AUTO_TEST_CASE(derivatives_against_differences) {
   const Case physics = train_case(neo_hookean, 0.7, 0.05, 1.6);
   const auto system = system_on_mesh(physics, spectral_basis(56).nodes);
-  const Eigen::Index n = system->nodes();
-  const auto zeta = system->membrane().basis.nodes.array();
-  Vector unknowns = system->initial();
-  unknowns.head(n).array() += 0.02 * (3 * zeta).cos() + 0.03 * (2 * zeta).cos();
-  unknowns.segment(n, n).array() += 0.02 * zeta.sin() - 0.01 * (4 * zeta).sin();
-  system->fit_tube(unknowns);
-  Vector direction = Vector::Zero(2 * n + 2);
-  direction.head(n) = (2 * zeta).cos() + 0.3 * (3 * zeta).cos();
-  direction.segment(n, n) = zeta.sin() - 0.4 * (4 * zeta).sin();
-  constexpr double h = 1e-4;
-  const auto at = [&](double step) { return system->residual(unknowns + step * h * direction); };
-  const Vector differences = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
+  const auto [unknowns, direction, differences] = disturb(*system);
   const SteadySystem::Linearisation linear = system->linearise(unknowns);
   BOOST_TEST(largest(linear.residual) > 0.3);
   BOOST_TEST(largest(linear.jacobian * direction - differences) < 1e-5 * largest(differences));
