@@ -53,7 +53,13 @@ Interaction Flow::interact(const Vector &position) const {
 }
 
 Interaction Flow::interact(const Vector &position, Layers layers) const {
-  return {wall_, mesh_, position, layers, image_shifts_, drive_};
+  // Images are felt wherever they are: a train has the whole wall.
+  return {image_shifts_.empty() ? wall_.felt_by(mesh_, position) : wall_.shared_whole(),
+          mesh_,
+          position,
+          layers,
+          image_shifts_,
+          drive_};
 }
 
 Vector Flow::at_nodes(const Interaction &interaction, const Densities &densities) {
@@ -192,7 +198,7 @@ FlowState Flow::solve(const Interaction &interaction, const Vector &f, Recycled 
   if (!state.velocity.allFinite())
     throw NumericsFailure(failure_kind::not_a_number, "the membrane's velocity is not a number",
                           "try a finer mesh.membrane");
-  state.pressure_drop = wall_.pressure_drop(at_wall);
+  state.pressure_drop = interaction.wall().pressure_drop(at_wall);
   state.flow_rate = 1 - state.pressure_drop / drive_.resistance;
   return state;
 }
@@ -208,9 +214,16 @@ Vector Flow::outer_velocity(const Targets &points, const Interaction &interactio
   Vector density = double_density(state.velocity);
   if (density.size() > 0) // a membrane's motion as a whole has no layer outside
     density -= layer_identities(mesh_, interaction.shape()).whole_motion(density);
-  return state.flow_rate * wall_.base_velocity(points) +
-         interaction.velocity_at(
-             points, stokeslet_factor * load_with_friction(interaction, f, state.velocity), density);
+  // The points may lie where the membranes do not feel the wall.
+  const Interaction anywhere{wall_.shared_whole(),
+                             mesh_,
+                             interaction.shape().position,
+                             density.size() > 0 ? Layers::both : Layers::single,
+                             image_shifts_,
+                             drive_};
+  return state.flow_rate * wall().base_velocity(points) +
+         anywhere.velocity_at(points, stokeslet_factor * load_with_friction(interaction, f, state.velocity),
+                              density);
 }
 
 Matrix Flow::mobility(const Interaction &interaction, Recycled &recycled) const {

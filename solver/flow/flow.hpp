@@ -15,6 +15,7 @@
 // membranes' size. Lengths, velocities and pressures are in the paper's scales. Derivation:
 // paper-notes/equations.md. Throws NumericsFailure: "unresolved" if the membranes' system is singular or does not
 // converge, "not-a-number" if the velocity is not a number.
+#include "flow/compressed_wall.hpp"
 #include "flow/flow_state.hpp"
 #include "flow/interaction.hpp"
 #include "flow/layer_identities.hpp"
@@ -44,7 +45,7 @@ public:
   // solver_tolerance: of FlowResolution.
   Flow(Wall wall, MembraneMesh mesh, const FlowParameters &parameters, double solver_tolerance);
 
-  const Wall &wall() const { return wall_; }
+  const Wall &wall() const { return wall_.whole(); }
   const MembraneMesh &mesh() const { return mesh_; }
   void place_images(std::vector<double> shifts) { image_shifts_ = std::move(shifts); }
 
@@ -84,7 +85,7 @@ private:
   Vector membrane_velocity(const Interaction &interaction, const Vector &right, Vector &at_wall,
                            Recycled &recycled) const;
 
-  Wall wall_;
+  CompressedWall wall_;
   MembraneMesh mesh_;
   Drive drive_;
   std::vector<double> image_shifts_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace capsule {
 namespace {
@@ -42,17 +43,17 @@ Curve moved(Curve curve, double shift) {
 
 } // namespace
 
-Interaction::Interaction(const Wall &wall, const MembraneMesh &mesh, const Vector &position, Layers layers,
-                         std::span<const double> image_shifts, Drive drive)
-    : wall_(&wall), mesh_(&mesh), image_shifts_(image_shifts.begin(), image_shifts.end()), drive_(drive),
-      shape_(shape_at(mesh, position)) {
+Interaction::Interaction(std::shared_ptr<const Wall> wall, const MembraneMesh &mesh, const Vector &position,
+                         Layers layers, std::span<const double> image_shifts, Drive drive)
+    : wall_(std::move(wall)), mesh_(&mesh), image_shifts_(image_shifts.begin(), image_shifts.end()),
+      drive_(drive), shape_(shape_at(mesh, position)) {
   assemble(ring_stokeslet, shape_.targets, &mesh.self, single_);
   if (layers == Layers::both)
     assemble(ring_stresslet, shape_.targets, &mesh.self, double_);
-  if (wall.unknowns() == 0) {
+  if (wall_->unknowns() == 0) {
     from_wall_.resize(2 * mesh.nodes, 0);
     double_at_wall_.resize(0, 2 * mesh.nodes);
-    base_velocity_ = wall.base_velocity(shape_.targets);
+    base_velocity_ = wall_->base_velocity(shape_.targets);
     return;
   }
   couple_to_wall(layers);

@@ -13,6 +13,7 @@
 #include "flow/membrane_mesh.hpp"
 #include "flow/wall.hpp"
 #include <limits>
+#include <memory>
 
 namespace capsule {
 
@@ -22,11 +23,11 @@ struct Drive {
   double resistance = std::numeric_limits<double>::infinity();
 };
 
-// Refers to the wall and the mesh, which have to outlive it.
+// Refers to the mesh, which has to outlive it.
 class Interaction {
 public:
-  Interaction(const Wall &wall, const MembraneMesh &mesh, const Vector &position, Layers layers,
-              std::span<const double> image_shifts = {}, Drive drive = {});
+  Interaction(std::shared_ptr<const Wall> wall, const MembraneMesh &mesh, const Vector &position,
+              Layers layers, std::span<const double> image_shifts = {}, Drive drive = {});
 
   const Wall &wall() const { return *wall_; }
   const MembraneMesh &mesh() const { return *mesh_; }
@@ -65,7 +66,7 @@ private:
   void add_near_rows(Layers layers);
   void couple_to_outlet();
 
-  const Wall *wall_;
+  std::shared_ptr<const Wall> wall_;
   const MembraneMesh *mesh_;
   std::vector<double> image_shifts_;
   Drive drive_;

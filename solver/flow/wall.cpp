@@ -1,4 +1,6 @@
 #include "flow/wall.hpp"
+#include <algorithm>
+#include <array>
 
 namespace capsule {
 namespace {
@@ -70,11 +72,10 @@ Curve wall_curve(const Pore &pore, const Panels &along) {
 }
 
 Wall::Wall(const Pore &pore, const FlowResolution &resolution)
-    : near_(resolution.wall_panel_points, resolution.near_tolerance),
+    : panels_(wall_panels(pore, resolution)), curve_(wall_curve(pore, panels_)),
+      near_tolerance_(resolution.near_tolerance),
+      near_(resolution.wall_panel_points, resolution.near_tolerance),
       outlet_(make_outlet(pore, resolution.near_tolerance)) {
-  const Panels along = wall_panels(pore, resolution);
-  arc_ = along.points;
-  curve_ = wall_curve(pore, along);
   fixed_near_ = FixedNearRule(curve_, resolution.near_tolerance);
   weights_.resize(2 * curve_.size() + 1);
   weights_ << stokeslet_factor * curve_.area, 1, stokeslet_factor * curve_.area;
@@ -85,6 +86,77 @@ Wall::Wall(const Pore &pore, const FlowResolution &resolution)
   } else {
     solve_base_flow();
   }
+}
+
+namespace {
+
+// Applies `use(first point of the whole wall, number of them, first point of the longer panel)` to each longer panel.
+template <class Use>
+void for_each_longer_panel(const Panels &whole, const Panels &longer, Use &&use) {
+  const Eigen::Index p = whole.rule.size();
+  Eigen::Index begin = 0;
+  for (Eigen::Index k = 0; k < longer.count(); ++k) {
+    Eigen::Index end = begin + 1;
+    while (whole.edges[end] < longer.edges[k + 1])
+      ++end;
+    use(begin * p, (end - begin) * p, k * p);
+    begin = end;
+  }
+}
+
+// P^T of the matrix P that interpolates values at the points of the whole wall from those of longer panels, applied to
+// the rows of a matrix: those of the axial components, of the outlet, of the radial ones.
+RowMatrix gathered(const Panels &whole, const Panels &longer, const RowMatrix &matrix) {
+  const Eigen::Index fine = whole.points.size(), coarse = longer.points.size(), p = longer.rule.size();
+  RowMatrix result(2 * coarse + 1, matrix.cols());
+  result.row(coarse) = matrix.row(fine);
+  for_each_longer_panel(whole, longer, [&](Eigen::Index begin, Eigen::Index count, Eigen::Index first) {
+    if (count == p) {
+      result.middleRows(first, p) = matrix.middleRows(begin, p);
+      result.middleRows(coarse + 1 + first, p) = matrix.middleRows(fine + 1 + begin, p);
+      return;
+    }
+    const Matrix interpolation =
+        lagrange_matrix(longer.points.segment(first, p), whole.points.segment(begin, count));
+    result.middleRows(first, p).noalias() = interpolation.transpose() * matrix.middleRows(begin, count);
+    result.middleRows(coarse + 1 + first, p).noalias() =
+        interpolation.transpose() * matrix.middleRows(fine + 1 + begin, count);
+  });
+  return result;
+}
+
+} // namespace
+
+Curve on_longer_panels(const Curve &curve, const Panels &whole, const Panels &longer) {
+  const Eigen::Index p = whole.rule.size();
+  Curve result;
+  result.panel_points = p;
+  result.weights = longer.weights;
+  const std::array fields{&Curve::x, &Curve::r, &Curve::x_zeta, &Curve::r_zeta};
+  for (const auto field : fields)
+    (result.*field).resize(longer.points.size());
+  for (Eigen::Index k = 0; k < longer.points.size(); ++k) {
+    const double *const begin = whole.edges.data();
+    const Eigen::Index panel =
+        std::upper_bound(begin + 1, begin + whole.count(), longer.points[k]) - begin - 1;
+    const Matrix share = lagrange_matrix(whole.points.segment(panel * p, p), longer.points.segment(k, 1));
+    for (const auto field : fields)
+      (result.*field)[k] = share.row(0) * (curve.*field).segment(panel * p, p);
+  }
+  complete(result);
+  return result;
+}
+
+Wall::Wall(const Wall &whole, const Vector &edges)
+    : panels_(make_panels(edges, static_cast<int>(whole.panels_.rule.size()))),
+      curve_(on_longer_panels(whole.curve_, whole.panels_, panels_)), near_tolerance_(whole.near_tolerance_),
+      near_(whole.near_), fixed_near_(curve_, near_tolerance_), outlet_(whole.outlet_),
+      closed_form_(whole.closed_form_), base_pressure_drop_(whole.base_pressure_drop_) {
+  const auto gather = [&](const RowMatrix &matrix) { return gathered(whole.panels_, panels_, matrix); };
+  inverse_ = gather(gather(whole.inverse_).transpose()).transpose();
+  weights_ = gather(whole.weights_);
+  if (whole.base_forces_.size() > 0)
+    base_forces_ = gather(whole.base_forces_);
 }
 
 // C of (3.1): velocity at points, 2 n, from tractions of the wall and P'.
@@ -151,7 +223,7 @@ Matrix Wall::base_traction() const {
   const Eigen::Index n = curve_.size();
   const Vector traction = base_forces_.cwiseQuotient(weights_);
   Matrix table(n, 3);
-  table << arc_, traction.head(n), traction.tail(n);
+  table << panels_.points, traction.head(n), traction.tail(n);
   return table;
 }
 

@@ -15,16 +15,24 @@ namespace capsule {
 // Panels by arc length from the outlet to the entrance, and the wall at their points, with the normal into the liquid.
 Panels wall_panels(const Pore &pore, const FlowResolution &resolution);
 Curve wall_curve(const Pore &pore, const Panels &along);
+// The curve on longer panels, each of which holds whole ones: interpolated from the panels that hold its points.
+Curve on_longer_panels(const Curve &curve, const Panels &whole, const Panels &longer);
 
 class Wall {
 public:
   // Unbounded liquid that flows like this far away.
   explicit Wall(UndisturbedFlow far_away = liquid_at_rest) : closed_form_(far_away) {}
   Wall(const Pore &pore, const FlowResolution &resolution);
+  // The same wall on longer panels, each of which holds whole panels of it: the unknowns and equations of a panel's points
+  // are interpolated from those of the longer one. As good as the whole wall for what is so far away that the
+  // ring stokeslet can be interpolated along the longer panels.
+  Wall(const Wall &whole, const Vector &edges);
 
   Eigen::Index unknowns() const { return inverse_.rows(); }
   Eigen::Index outlet_unknown() const { return curve_.size(); }
-  const Curve &curve() const { return curve_; } // from the outlet's end to the entrance
+  const Curve &curve() const { return curve_; }    // from the outlet's end to the entrance
+  const Panels &panels() const { return panels_; } // of the curve, by arc length
+  double near_tolerance() const { return near_tolerance_; }
   const Outlet &outlet() const { return outlet_; }
   // Of the curve's panels, for targets off the wall.
   const FixedNearRule &near() const { return fixed_near_; }
@@ -51,8 +59,9 @@ private:
   RowMatrix matrix() const;
   void solve_base_flow();
 
+  Panels panels_;
   Curve curve_;
-  Vector arc_;
+  double near_tolerance_ = 0;
   NearRule near_;
   FixedNearRule fixed_near_;
   Outlet outlet_;

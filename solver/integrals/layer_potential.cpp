@@ -259,7 +259,6 @@ void assemble_layer(const RingKernel &kernel, const Targets &targets, const Curv
   const Eigen::Index p = curve.panel_points;
   const Eigen::Index dimension = kernel.dimension;
   matrix.resize(dimension * nt, dimension * q);
-  const Rings rings = rings_of(curve, 0, q);
   // Beyond this distance of a panel's first point all of it is out of reach.
   const Eigen::Index panels = q / p;
   Vector reach(panels);
@@ -277,12 +276,14 @@ void assemble_layer(const RingKernel &kernel, const Targets &targets, const Curv
       return matrix.row(component / dimension * nt + i).segment(component % dimension * q, q);
     };
     const Eigen::Index parts = components(kernel);
-    const auto begin = [&](Eigen::Index component) {
-      return component < parts ? part(component).data() : nullptr;
+    const auto plainly = [&](Eigen::Index first, Eigen::Index count) {
+      const auto at = [&](Eigen::Index component) {
+        return component < parts ? part(component).data() + first : nullptr;
+      };
+      kernel.plain(x0, r0, rings_of(curve, first, count), {at(0), at(1), at(2), at(3)});
+      for (Eigen::Index component = 0; component < parts; ++component)
+        part(component).segment(first, count).array() *= curve.area.segment(first, count).transpose().array();
     };
-    kernel.plain(x0, r0, rings, {begin(0), begin(1), begin(2), begin(3)});
-    for (Eigen::Index component = 0; component < parts; ++component)
-      part(component).array() *= curve.area.transpose().array();
     const auto replace = [&](const KernelBlock &block, Eigen::Index first) {
       for (Eigen::Index component = 0; component < parts; ++component)
         part(component).segment(first, block.cols()) = block.row(component);
@@ -295,6 +296,8 @@ void assemble_layer(const RingKernel &kernel, const Targets &targets, const Curv
       self_end = site.first_point + site.logarithm.size();
       replace(integrate_self(kernel, targets, i, curve, site), self_begin);
     }
+    plainly(0, self_begin);
+    plainly(self_end, q - self_end);
     for (Eigen::Index k = 0; k < panels; ++k) {
       const Eigen::Index first = k * p;
       if (first >= self_begin && first < self_end)

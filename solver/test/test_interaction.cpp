@@ -173,7 +173,7 @@ BOOST_AUTO_TEST_CASE(images_are_explicit_copies) {
     three.back().centre += shift;
   }
   const MembraneMesh single = mesh_of(one), triple = mesh_of(three);
-  const Wall wall = tube(2.5);
+  const auto wall = std::make_shared<const Wall>(tube(2.5));
   const std::array shifts{-period, period};
   const Interaction with_images(wall, single, position_of(one, single), Layers::both, shifts);
   const Interaction explicitly(wall, triple, position_of(three, triple), Layers::both);
