@@ -104,23 +104,23 @@ void for_each_longer_panel(const Panels &whole, const Panels &longer, Use &&use)
   }
 }
 
-// P^T of the matrix P that interpolates values at the points of the whole wall from those of longer panels, applied to
-// the rows of a matrix: those of the axial components, of the outlet, of the radial ones.
+// M P, where P interpolates values at the points of the whole wall from those of longer panels: columns of the axial
+// components, of the outlet, of the radial ones.
 RowMatrix gathered(const Panels &whole, const Panels &longer, const RowMatrix &matrix) {
   const Eigen::Index fine = whole.points.size(), coarse = longer.points.size(), p = longer.rule.size();
-  RowMatrix result(2 * coarse + 1, matrix.cols());
-  result.row(coarse) = matrix.row(fine);
+  RowMatrix result(matrix.rows(), 2 * coarse + 1);
+  result.col(coarse) = matrix.col(fine);
   for_each_longer_panel(whole, longer, [&](Eigen::Index begin, Eigen::Index count, Eigen::Index first) {
     if (count == p) {
-      result.middleRows(first, p) = matrix.middleRows(begin, p);
-      result.middleRows(coarse + 1 + first, p) = matrix.middleRows(fine + 1 + begin, p);
+      result.middleCols(first, p) = matrix.middleCols(begin, p);
+      result.middleCols(coarse + 1 + first, p) = matrix.middleCols(fine + 1 + begin, p);
       return;
     }
     const Matrix interpolation =
         lagrange_matrix(longer.points.segment(first, p), whole.points.segment(begin, count));
-    result.middleRows(first, p).noalias() = interpolation.transpose() * matrix.middleRows(begin, count);
-    result.middleRows(coarse + 1 + first, p).noalias() =
-        interpolation.transpose() * matrix.middleRows(fine + 1 + begin, count);
+    result.middleCols(first, p).noalias() = matrix.middleCols(begin, count) * interpolation;
+    result.middleCols(coarse + 1 + first, p).noalias() =
+        matrix.middleCols(fine + 1 + begin, count) * interpolation;
   });
   return result;
 }
@@ -153,10 +153,10 @@ Wall::Wall(const Wall &whole, const Vector &edges)
       near_(whole.near_), fixed_near_(curve_, near_tolerance_), outlet_(whole.outlet_),
       closed_form_(whole.closed_form_), base_pressure_drop_(whole.base_pressure_drop_) {
   const auto gather = [&](const RowMatrix &matrix) { return gathered(whole.panels_, panels_, matrix); };
-  inverse_ = gather(gather(whole.inverse_).transpose()).transpose();
-  weights_ = gather(whole.weights_);
+  inverse_ = gather(gather(whole.inverse_).transpose()).transpose(); // P^T A^(-1) P
+  weights_ = gather(whole.weights_.transpose()).row(0);
   if (whole.base_forces_.size() > 0)
-    base_forces_ = gather(whole.base_forces_);
+    base_forces_ = gather(whole.base_forces_.transpose()).row(0);
 }
 
 // C of (3.1): velocity at points, 2 n, from tractions of the wall and P'.

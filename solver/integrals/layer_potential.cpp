@@ -101,10 +101,15 @@ double near_factor(Eigen::Index points, double tolerance) {
   return std::sinh(-std::log(tolerance) / (2.0 * static_cast<double>(points)));
 }
 
+// Both parts of the kernel at the points next to a target: the same room for all targets of a layer.
+struct SplitBlocks {
+  KernelBlock smooth, logarithmic;
+};
+
 // Weights of the panels that hold or touch a target on the curve. The kernel is
 // smooth - ln(m1) logarithmic with ln(m1) = ln(gap^2) + a smooth function (ring_kernel.hpp).
-KernelBlock integrate_self(const RingKernel &kernel, const Targets &targets, Eigen::Index i,
-                           const Curve &curve, const SelfRule::Site &site) {
+const KernelBlock &integrate_self(const RingKernel &kernel, const Targets &targets, Eigen::Index i,
+                                  const Curve &curve, const SelfRule::Site &site, SplitBlocks &blocks) {
   const double x0 = targets.x[i];
   const double r0 = targets.r[i];
   const Eigen::Index n = site.logarithm.size();
@@ -118,8 +123,9 @@ KernelBlock integrate_self(const RingKernel &kernel, const Targets &targets, Eig
       site.gap * (curve.r_zeta[nearest] - bend_r),
       -site.gap * (bend_x * curve.normal_x[nearest] + bend_r * curve.normal_r[nearest]);
 
-  KernelBlock smooth(components(kernel), n);
-  KernelBlock logarithmic(components(kernel), n);
+  auto &[smooth, logarithmic] = blocks;
+  smooth.resize(components(kernel), n);
+  logarithmic.resize(components(kernel), n);
   kernel.split(r0, rings, apart, rows_of(smooth), rows_of(logarithmic));
   const auto dx2 = apart.col(0).array().square();
   const auto dr2 = apart.col(1).array().square();
@@ -128,8 +134,10 @@ KernelBlock integrate_self(const RingKernel &kernel, const Targets &targets, Eig
   const Eigen::ArrayXd element = curve.arc.segment(first, n).array() * curve.r.segment(first, n).array();
   const Eigen::ArrayXd plain = curve.weights.segment(first, n).array() * element;
   const Eigen::ArrayXd product = plain * remainder + site.logarithm.array() * element;
-  return (smooth.array().rowwise() * plain.transpose() - logarithmic.array().rowwise() * product.transpose())
-      .matrix();
+  smooth.array().rowwise() *= plain.transpose();
+  logarithmic.array().rowwise() *= product.transpose();
+  smooth -= logarithmic;
+  return smooth;
 }
 
 } // namespace
@@ -268,6 +276,7 @@ void assemble_layer(const RingKernel &kernel, const Targets &targets, const Curv
     reach[k] = near.reach(length);
     sphere[k] = reach[k] + length;
   }
+  SplitBlocks blocks;
   for (Eigen::Index i = 0; i < nt; ++i) {
     const double x0 = targets.x[i];
     const double r0 = targets.r[i];
@@ -294,7 +303,7 @@ void assemble_layer(const RingKernel &kernel, const Targets &targets, const Curv
       const SelfRule::Site &site = self->sites[static_cast<std::size_t>(i)];
       self_begin = site.first_point;
       self_end = site.first_point + site.logarithm.size();
-      replace(integrate_self(kernel, targets, i, curve, site), self_begin);
+      replace(integrate_self(kernel, targets, i, curve, site, blocks), self_begin);
     }
     plainly(0, self_begin);
     plainly(self_end, q - self_end);
