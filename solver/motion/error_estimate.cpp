@@ -36,16 +36,6 @@ std::vector<RowPair> pair_rows(const std::vector<SeriesRow> &fine, const std::ve
   return pairs;
 }
 
-// The rows of the finer march that the coarser one has, too. What is found between rows, such as a peak, is compared
-// between these: the coarser march has fewer rows, and interpolation between them would add errors of its own.
-std::vector<SeriesRow> rows_in_both(const std::vector<SeriesRow> &fine, const std::vector<SeriesRow> &coarse,
-                                    double SeriesRow::*place) {
-  std::vector<SeriesRow> rows;
-  for (const RowPair &pair : pair_rows(fine, coarse, place))
-    rows.push_back(*pair.fine);
-  return rows;
-}
-
 // The rows of two followers where those of their leading capsules are paired.
 std::vector<RowPair> pair_followers(const std::vector<RowPair> &leading, const Checkpoint &fine,
                                     const Checkpoint &coarse, std::size_t follower) {
@@ -80,7 +70,7 @@ double shift_of_peak(const std::vector<RowPair> &pairs, const Peak &peak) {
     };
     const double curvature =
         2 * (rise(k, &RowPair::fine) / after - rise(k - 1, &RowPair::fine) / before) / (before + after);
-    if (std::abs(pairs[k - 1].fine->x_g - peak.x_g) <= std::max(before, after) && curvature < 0)
+    if (std::abs(pairs[k - 1].fine->x_g - peak.x_g) <= row_spacing && curvature < 0)
       shift = std::max(shift,
                        std::abs((rise(k, &RowPair::fine) - rise(k, &RowPair::coarse)) / (after * curvature)));
   }
@@ -122,10 +112,9 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
                                               const std::vector<SeriesRow> &coarse, bool by_x_g,
                                               Scheme scheme) {
   constexpr double around_peak = 0.5;
-  double SeriesRow::*const place = by_x_g ? &SeriesRow::x_g : &SeriesRow::time;
-  const std::optional<Peak> peak = entry_peak(rows_in_both(fine, coarse, place));
+  const std::optional<Peak> peak = entry_peak(fine);
   const std::optional<Peak> coarse_peak = entry_peak(coarse);
-  const std::vector<RowPair> pairs = pair_rows(fine, coarse, place);
+  const std::vector<RowPair> pairs = pair_rows(fine, coarse, by_x_g ? &SeriesRow::x_g : &SeriesRow::time);
   std::map<std::string, double> error = differences(pairs, fine.back(), pairs, by_x_g, "");
   const auto add = [&](const std::string &name, double difference) {
     error[name] = std::max(error[name], std::abs(difference));
@@ -163,8 +152,7 @@ void add_errors_of_followers(const Checkpoint &fine, const Checkpoint &coarse, b
 
 void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fine,
                            const std::vector<SeriesRow> &coarse, std::map<std::string, double> &errors) {
-  const auto transit = transit_of(physics, rows_in_both(fine, coarse, &SeriesRow::x_g)),
-             other = transit_of(physics, coarse);
+  const auto transit = transit_of(physics, fine), other = transit_of(physics, coarse);
   if (!transit || !other)
     return;
   for (const TransitQuantity &quantity : transit_quantities()) {

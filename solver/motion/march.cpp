@@ -19,7 +19,6 @@ namespace capsule {
 namespace {
 
 constexpr int rows_in_time = 200; // of a march that ends at a time
-constexpr int rows_to_a_row_of_companion = 4;
 constexpr int steps_of_a_leg = 250;
 constexpr int explicit_steps_of_a_leg = 1000;
 constexpr Station end_station{
@@ -42,15 +41,14 @@ public:
     // Not the centre of the start's shape, whose rounding may lie on either side of a place that is asked for.
     const double centre = record_.steps > 0 ? centre_of(0, record_.position) : input.capsule.start_x;
     const UntilSpec &until = input.until;
-    const int rows = role == Role::companion ? rows_to_a_row_of_companion : 1;
-    x_g_stations_ = stations(centre, rows * row_spacing,
-                             until.last_x_g && !until.x_g ? end_of_way(input.pore) : until.x_g,
-                             input.output.profiles_at_x_g);
+    x_g_stations_ =
+        stations(centre, row_spacing, until.last_x_g && !until.x_g ? end_of_way(input.pore) : until.x_g,
+                 input.output.profiles_at_x_g);
     if (until.last_x_g && !until.x_g)
       for (Station &station : x_g_stations_)
         station.end = false;
     const double end = until.time.value_or(std::numeric_limits<double>::infinity());
-    time_stations_ = stations(record_.time, until.by_place() ? end : rows * end / rows_in_time, until.time,
+    time_stations_ = stations(record_.time, until.by_place() ? end : end / rows_in_time, until.time,
                               input.output.profiles_at_time);
   }
 
