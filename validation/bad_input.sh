@@ -236,8 +236,10 @@ expect 2 '^--set:1:1: error: ' "$capsule" run file.toml --set 'ωflow.viscosity=
 expect 2 "^did you mean 'flow.viscosity_ratio'" "$capsule" run file.toml --set flow.viscosity_rato=1
 expect 2 '^--set:1:1: error: expected key=value' "$capsule" run file.toml --set flow.viscosity_ratio
 expect 2 '^--set:1:22: error: flow.viscosity_ratio = -1' "$capsule" run file.toml --set flow.viscosity_ratio=-1
-expect 2 '^--set:1:12: error: steady states are computed at a given flow rate' \
-  "$capsule" steady file.toml --set flow.drive=pressure
+expect 2 '^--set:1:13: error: a steady state under constant pressure needs a pore of 2 radii or more' \
+  "$capsule" steady file.toml --set flow.drive=pressure --set pore.exit_x=1.5
+expect 2 '^--set:1:12: error: an infinite train has no pore that a pressure drives' \
+  "$capsule" steady file.toml --set flow.drive=pressure --set flow.period=3
 expect 2 '^--set:1:17: error: a steady state is of one capsule, or of a train of equal ones' \
   "$capsule" steady file.toml --set "capsule.start_x=[1, -3]"
 expect 2 '^--set:1:13: error: flow.period = 0.9 of the tube holds less than one capsule' \

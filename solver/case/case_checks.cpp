@@ -191,6 +191,9 @@ struct Checks {
           {"flow.period", "capsule.radius"},
           fmt::format("flow.period = {} of the tube holds less than one capsule", number_text(c.flow.period)),
           fmt::format("it must lie above 4/3 capsule.radius^3 = {:.4g}", shortest));
+    if (c.flow.drive == DriveBy::pressure)
+      chosen.complain({"flow.drive", "flow.period"}, "an infinite train has no pore that a pressure drives",
+                      "leave out flow.drive: the train's flow rate is given");
     if (c.output.resistance)
       chosen.complain({"output.resistance", "flow.period"}, "the resistance of a train is not computed",
                       "leave out output.resistance, or flow.period");
@@ -206,11 +209,11 @@ struct Checks {
     if (!task.motion && c.pore.shape == PoreShape::two_mouths)
       chosen.complain({"pore.shape"}, "there is no steady state in a pore of finite length",
                       "steady states are those of its tube, infinitely long: pore.shape = \"tube\"");
-    if (!task.motion && c.flow.drive == DriveBy::pressure)
-      chosen.complain(
-          {"flow.drive"}, "steady states are computed at a given flow rate",
-          "under constant pressure they are the same at flow_rate times flow.capillary_number: leave "
-          "out flow.drive");
+    if (!task.motion && c.flow.drive == DriveBy::pressure && driven_tube_length(c) < shortest_fitted_tube)
+      chosen.complain({"pore.exit_x", "flow.drive"},
+                      fmt::format("a steady state under constant pressure needs a pore of {} radii or more",
+                                  shortest_fitted_tube),
+                      "in a shorter one the mouths act on the capsule");
     if (c.flow.period > 0)
       check_train(task);
     if (c.flow.type == FlowType::extension)
@@ -229,6 +232,9 @@ struct Checks {
     const FitSpec &fit = physics.fit;
     if (physics.flow.type != FlowType::pore)
       chosen.complain({"flow.type"}, "a fit is of a capsule in a tube");
+    if (physics.flow.drive == DriveBy::pressure)
+      chosen.complain({"flow.drive"}, "a fit is of a capsule at the flow rate that it has",
+                      "leave out flow.drive, whatever is constant");
     const std::vector<std::string> parameters = parameters_of_steady_states();
     std::vector<std::string> names;
     for (const Law *law : laws())

@@ -238,9 +238,10 @@ std::string run_name(const Chosen &chosen, const Case &physics, const Task &task
   for (std::size_t i = 0; i < chosen.reader.assignments.size(); ++i) {
     const Assignment &assignment = chosen.reader.assignments[i];
     const Key &key = *assignment.key;
-    const auto counts = [&](const Case *capsule) { return means_something(key, *capsule); };
-    if (!assignment.sweep || std::ranges::none_of(capsules, counts) ||
-        (!task.motion && key.steady == SteadyRole::none))
+    const auto matters = [&](const Case *capsule) {
+      return means_something(key, *capsule) && (task.motion || steady_states_depend_on(key, *capsule));
+    };
+    if (!assignment.sweep || std::ranges::none_of(capsules, matters))
       continue;
     name += fmt::format("{}{}={}", name.empty() ? "" : ",", short_name(key),
                         std::holds_alternative<Measured>(key.field)

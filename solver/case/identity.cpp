@@ -38,7 +38,7 @@ std::string what_counts(const Case &physics, const Task &task) {
       return false;
     if (is_of_fits(key))
       return task.fit;
-    return task.motion || key.steady != SteadyRole::none;
+    return task.motion || steady_states_depend_on(key, physics);
   });
 }
 

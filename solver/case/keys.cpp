@@ -40,6 +40,12 @@ Key of_motion(Key key) {
   return key;
 }
 
+// Of the empty pore, which has a part in steady states under constant pressure only.
+Key of_the_pore(Key key) {
+  key.steady = SteadyRole::pore;
+  return key;
+}
+
 // In the equations of steady states, so that branches may go along it.
 Key parameter(Key key) {
   key.steady = SteadyRole::parameter;
@@ -84,19 +90,20 @@ std::vector<Key> general_keys() {
 
 std::vector<Key> pore_keys() {
   return {
-      of_motion({"pore.shape",
-                 "hyperbolic mouth and tube; two-mouths: the mouth's mirror image behind the tube, too; tube "
-                 "without a mouth; none: unbounded liquid",
-                 choice<PoreShape>(CAPSULE_AT(pore.shape), {"hyperbolic", "two-mouths", "tube", "none"}),
-                 any_number, "hyperbolic; none with flow.type = \"extension\""}),
-      of_motion(only_with({"pore.shape", {"hyperbolic", "two-mouths"}, "flow.type"},
-                          {"pore.opening_angle_deg", "opening angle of the mouth, alpha of eq. 1, degrees",
-                           member<double>(CAPSULE_AT(pore.opening_angle_deg)), above_up_to(0, 90)})),
-      of_motion(in_a_pore({"pore.exit_x",
-                           "where the tube ends, in the exit section or the second mouth, L_P; or "
-                           "physical.pore_length",
-                           member<double>(CAPSULE_AT(pore.exit_x)), above_up_to(0, 1000)})),
-      of_motion(in_a_pore(
+      of_the_pore(
+          {"pore.shape",
+           "hyperbolic mouth and tube; two-mouths: the mouth's mirror image behind the tube, too; tube "
+           "without a mouth; none: unbounded liquid",
+           choice<PoreShape>(CAPSULE_AT(pore.shape), {"hyperbolic", "two-mouths", "tube", "none"}),
+           any_number, "hyperbolic; none with flow.type = \"extension\""}),
+      of_the_pore(only_with({"pore.shape", {"hyperbolic", "two-mouths"}, "flow.type"},
+                            {"pore.opening_angle_deg", "opening angle of the mouth, alpha of eq. 1, degrees",
+                             member<double>(CAPSULE_AT(pore.opening_angle_deg)), above_up_to(0, 90)})),
+      of_the_pore(in_a_pore({"pore.exit_x",
+                             "where the tube ends, in the exit section or the second mouth, L_P; or "
+                             "physical.pore_length",
+                             member<double>(CAPSULE_AT(pore.exit_x)), above_up_to(0, 1000)})),
+      of_the_pore(in_a_pore(
           {"pore.entrance_distance",
            "distance of the entrance section from the mouth, L_E; of the wall's end behind a second "
            "mouth, too",
@@ -359,6 +366,11 @@ std::string_view short_name(const Key &key) {
   const std::string_view last = last_component(key.name);
   const auto shares_it = [&](const Key &other) { return last_component(other.name) == last; };
   return std::ranges::count_if(keys(), shares_it) == 1 ? last : key.name;
+}
+
+bool steady_states_depend_on(const Key &key, const Case &physics) {
+  return key.steady == SteadyRole::pore ? physics.flow.drive == DriveBy::pressure
+                                        : key.steady != SteadyRole::none;
 }
 
 std::vector<std::string> parameters_of_steady_states() {

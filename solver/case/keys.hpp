@@ -27,6 +27,7 @@ std::string scope_text(const Key &key);
 // What only `capsule fit` looks at: the table [fit], and what stands in for the flow rate.
 bool is_of_fits(const Key &key);
 
+bool steady_states_depend_on(const Key &key, const Case &physics);
 // The keys along which branches go, and which a fit may find.
 std::vector<std::string> parameters_of_steady_states();
 

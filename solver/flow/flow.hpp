@@ -48,6 +48,7 @@ public:
   const Wall &wall() const { return wall_.whole(); }
   const MembraneMesh &mesh() const { return mesh_; }
   void place_images(std::vector<double> shifts) { image_shifts_ = std::move(shifts); }
+  void drive_by(Drive drive) { drive_ = drive; }
 
   // Everything that depends on the position alone, with the layers that this flow needs or with both. Refers to
   // this flow.

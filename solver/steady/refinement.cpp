@@ -15,14 +15,18 @@ namespace {
 std::map<std::string, double> errors_of(const SeriesRow &fine, const SeriesRow &coarse) {
   const double quadrature = std::abs(fine.pressure_drop - fine.pressure_drop_reciprocal);
   const double relative = quadrature / std::max(std::abs(fine.pressure_drop), 1.0);
+  const auto of_quadrature = [&](double SeriesRow::*value) {
+    return value == &SeriesRow::pressure_drop ? quadrature
+           : value == &SeriesRow::flow_rate   ? (1 - fine.flow_rate) * relative
+                                              : relative;
+  };
   std::map<std::string, double> errors;
   for (const ReportedQuantity &quantity : reported_quantities()) {
     const double value = fine.*quantity.value;
     if (quantity.error == ErrorEstimate::by_value_itself)
       errors[quantity.name] = std::abs(value);
     else if (quantity.error == ErrorEstimate::of_all && is_reported(quantity, fine))
-      errors[quantity.name] = std::abs(value - coarse.*quantity.value) +
-                              (quantity.value == &SeriesRow::pressure_drop ? quadrature : relative);
+      errors[quantity.name] = std::abs(value - coarse.*quantity.value) + of_quadrature(quantity.value);
   }
   return errors;
 }

@@ -1,5 +1,7 @@
 #include "steady/steady_system.hpp"
 #include "base/failure.hpp"
+#include "case/empty_pore.hpp"
+#include "case/physical.hpp"
 #include "geometry/gap.hpp"
 #include "membrane/load.hpp"
 #include "membrane/surface_viscosity.hpp"
@@ -60,6 +62,8 @@ void SteadySystem::build_flow() {
     pore_ = make_pore({.shape = PoreShape::tube, .exit_x = half_length_, .entrance_distance = half_length_});
   flow_ =
       make_flow(pore_, {.type = input_.flow.type, .capillary_number = 1}, membrane_.basis, resolution_.flow);
+  if (input_.flow.drive == DriveBy::pressure)
+    flow_->drive_by({empty_pressure_drop(input_.pore, driven_tube_length(input_))});
   place_images();
 }
 

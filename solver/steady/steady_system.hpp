@@ -7,7 +7,8 @@
 // The flux of v - V through the membrane vanishes identically, so that one equation of the nodes follows from the
 // others. The slack makes up for it; its value is the error of discretisation. A hyperbolic pore is replaced by its
 // tube, which is infinitely long in effect: the disturbance falls by exp(-4.47) per radius of the tube, and the wall is
-// built as far as there is any.
+// built as far as there is any. Where the pressure is given, the flow rate is what it drives through the case's own pore
+// with the capsule in its tube.
 //   A train of equal capsules is one of them with its images, on either side as many as it feels. They move with it: the
 // derivative of its velocity is that of equal displacements of all.
 // Throws NumericsFailure for shapes that are no capsule in the tube.

@@ -60,6 +60,25 @@ BOOST_AUTO_TEST_CASE(fold_of_a_neo_hookean_capsule) {
   BOOST_TEST(std::abs(found[0] - found[1]) < 1e-6 * found[0]);
 }
 
+// As a capsule stretches its pressure drop falls: under constant pressure the flow grows, and the same states turn earlier.
+// Small motions know it: they neither grow nor decay at that fold, where the state is stable at its constant flow rate.
+BOOST_AUTO_TEST_CASE(fold_under_constant_pressure) {
+  Case physics = neo_hookean_case(64);
+  physics.pore.exit_x = 3;
+  physics.flow.drive = DriveBy::pressure;
+  const Outcome outcome = follow_branch(physics, "flow.capillary_number", 0.3, {});
+  BOOST_REQUIRE(outcome.folds.size() == 1);
+  const BranchRow &fold = outcome.folds[0];
+  BOOST_TEST(std::abs(fold.growth_rate) < 1e-6);
+  physics.flow.drive = DriveBy::flow_rate;
+  physics.flow.capillary_number = fold.row.flow_rate * fold.parameter;
+  const Outcome given = steady(physics, {}, {});
+  BOOST_REQUIRE((given.status == Status::steady));
+  BOOST_TEST(given.further.at("growth_rate") < -0.01);
+  BOOST_TEST(std::abs(given.last.series[0].max_stretch - fold.row.max_stretch) < 1e-5);
+  BOOST_TEST(std::abs(fold.row.flow_rate * given.last.series[0].v_g - fold.row.v_g) < 1e-6);
+}
+
 // Where a branch ends, nothing tells from which side it came.
 BOOST_AUTO_TEST_CASE(the_end_of_a_branch_is_a_steady_state) {
   Case physics = neo_hookean_case(44);

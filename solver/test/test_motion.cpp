@@ -409,6 +409,10 @@ BOOST_AUTO_TEST_CASE(steady_state_under_constant_pressure) {
   BOOST_REQUIRE(outcome.status == Status::reached);
   const SeriesRow end = outcome.last.series.back();
   BOOST_TEST(end.max_radial_velocity < 1e-5);
+  const SeriesRow steady_end = steady(physics, {}, {}).last.series.back();
+  BOOST_TEST(steady_end.flow_rate == end.flow_rate, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(steady_end.v_g == end.v_g, boost::test_tools::tolerance(1e-5));
+  BOOST_TEST(steady_end.length == end.length, boost::test_tools::tolerance(1e-5));
   physics.flow.drive = DriveBy::flow_rate;
   physics.flow.capillary_number *= end.flow_rate;
   const SeriesRow given = steady(physics, {}, {}).last.series.back();

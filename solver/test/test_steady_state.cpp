@@ -112,17 +112,23 @@ BOOST_AUTO_TEST_CASE(inflation_removes_the_compression_of_hoops) {
   BOOST_TEST(least_tension(0.05) > 0);
 }
 
-// What the whole equations of motion say: the steady shape rests at any viscosity ratio, of a viscous membrane too, and
-// their derivative, by differences, is the linear motion's.
+// What the whole equations of motion say: the steady shape rests at any viscosity ratio, of a viscous membrane and under
+// constant pressure, too, and their derivative, by differences, is the linear motion's.
 BOOST_AUTO_TEST_CASE(linear_motion_is_the_derivative_of_the_motion) {
   struct Row {
     double lambda;
     SurfaceViscosity viscosity;
+    DriveBy drive = DriveBy::flow_rate;
   };
-  for (const auto &[lambda, viscosity] :
-       {Row{0.2, {}}, Row{1, {}}, Row{5, {}}, Row{1, {2, 1}}, Row{5, {0.5, 3}}}) {
+  for (const auto &[lambda, viscosity, drive] :
+       {Row{0.2, {}}, Row{1, {}}, Row{5, {}}, Row{1, {2, 1}}, Row{5, {0.5, 3}}, Row{1, {}, DriveBy::pressure},
+        Row{5, {0.5, 3}, DriveBy::pressure}}) {
     Case physics = tube_case(neo_hookean, 0.7, 0.05, 1e-2);
     physics.membrane.viscosity = viscosity;
+    physics.flow.drive = drive;
+    physics.pore.shape = PoreShape::tube;
+    physics.pore.exit_x = 6;
+    physics.pore.entrance_distance = 6;
     physics.mesh.membrane = 40;
     physics.accuracy = 1e-6;
     const SteadyState found = refine(physics, find_steady(physics, {}, {}), {}).state;
@@ -130,9 +136,6 @@ BOOST_AUTO_TEST_CASE(linear_motion_is_the_derivative_of_the_motion) {
     state.unknowns = solve_steady(*state.system, moved_to(*state.system, *found.system, found.unknowns));
     const Eigen::Index n = state.system->nodes();
 
-    physics.pore.shape = PoreShape::tube;
-    physics.pore.exit_x = 6;
-    physics.pore.entrance_distance = 6;
     physics.flow.viscosity_ratio = lambda;
     const Dynamics dynamics = make_dynamics(physics);
     const Vector position = state.unknowns.head(2 * n);
@@ -151,6 +154,29 @@ BOOST_AUTO_TEST_CASE(linear_motion_is_the_derivative_of_the_motion) {
   }
 }
 
+// Under constant pressure a capsule has the steady state of the flow rate Q that it leaves, q = Q/Q_0: that of q times the
+// capillary number, with q times its velocity, and q = P/(P + Delta P) with the drop P of the empty pore, of which a mouth
+// costs 4.924572 (another program).
+BOOST_AUTO_TEST_CASE(constant_pressure_leaves_a_flow_rate) {
+  Case physics = tube_case(skalak, 0.9, 0.1, 1e-3);
+  physics.pore.exit_x = 6;
+  physics.flow.drive = DriveBy::pressure;
+  physics.mesh.membrane = 64;
+  const SeriesRow driven = steady_row(physics);
+  const double q = driven.flow_rate;
+  BOOST_TEST(q < 0.85);
+  physics.flow.drive = DriveBy::flow_rate;
+  physics.flow.capillary_number *= q;
+  const SeriesRow given = steady_row(physics);
+  BOOST_TEST(given.flow_rate == 1);
+  const auto close = boost::test_tools::tolerance(1e-7);
+  BOOST_TEST(q == 1 / (1 + given.pressure_drop / (8 * 6 + 4.924572)), close);
+  BOOST_TEST(driven.pressure_drop == q * given.pressure_drop, close);
+  BOOST_TEST(driven.v_g == q * given.v_g, close);
+  BOOST_TEST(driven.length == given.length, close);
+  BOOST_TEST(driven.max_stretch == given.max_stretch, close);
+}
+
 // In an extension, as everything is displaced by e_x, the flow changes by e_x and by nothing else: on a
 // slender shape, whose load is hard to resolve at the tips.
 BOOST_AUTO_TEST_CASE(displacement_along_the_axis_of_an_extension) {
@@ -164,11 +190,15 @@ BOOST_AUTO_TEST_CASE(displacement_along_the_axis_of_an_extension) {
   BOOST_TEST((change - direction).cwiseAbs().maxCoeff() < 1e-6);
 }
 
-// Newton's matrix is the derivative of the equations about any shape, steady or not, in the tube and in the
-// unbounded liquid: against differences of the residual about a shape whose nodes move as fast as the flow.
+// Newton's matrix is the derivative of the equations about any shape, steady or not, in the tube at constant flow rate and
+// under constant pressure, and in the unbounded liquid: against differences of the residual about a shape whose nodes move
+// as fast as the flow.
 BOOST_AUTO_TEST_CASE(newtons_matrix_is_the_derivative_of_the_equations) {
-  for (const bool unbounded : {false, true}) {
-    Case physics = unbounded ? extension_case(neo_hookean, 0.05) : tube_case(neo_hookean, 0.7, 0.05, 1e-2);
+  const Case in_tube = tube_case(neo_hookean, 0.7, 0.05, 1e-2);
+  Case under_pressure = in_tube;
+  under_pressure.flow.drive = DriveBy::pressure;
+  under_pressure.pore.exit_x = 2;
+  for (Case physics : {in_tube, under_pressure, extension_case(neo_hookean, 0.05)}) {
     physics.membrane.bending_ratio = 1e-2;
     physics.accuracy = 1e-6;
     const auto system = system_on_mesh(physics, spectral_basis(56).nodes);
