@@ -74,6 +74,12 @@ FlowResolution conductor_resolution(FlowResolution resolution) {
   return resolution;
 }
 
+FlowResolution coarser_conductor(FlowResolution resolution) {
+  resolution.membrane_panel_points -= 2;
+  resolution.wall_panel_points -= 2;
+  return resolution;
+}
+
 // Of the current pi through a part of a sphere.
 Conductor::Electrode Conductor::cap_electrode(Curve cap, double centre_x) {
   const double field = 1 / (2 * cap.area.sum());

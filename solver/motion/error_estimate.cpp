@@ -16,6 +16,9 @@ double safety_of(const std::string &quantity, Scheme scheme) {
   return safety * (of_the_way ? 1 : 2) * (scheme == Scheme::euler ? 9 : 1);
 }
 
+// Rows this near to a peak have its error, too.
+constexpr double around_peak = 0.5;
+
 // Rows of both marches at the same x_g, or at the same time where time tells the end.
 struct RowPair {
   const SeriesRow *fine, *coarse;
@@ -77,6 +80,18 @@ double shift_of_peak(const std::vector<RowPair> &pairs, const Peak &peak) {
   return shift;
 }
 
+// Of a value that is the largest on the way.
+double difference_around_largest(const std::vector<RowPair> &pairs, double SeriesRow::*value) {
+  const SeriesRow &top = *std::ranges::max_element(pairs, {}, [value](const RowPair &pair) {
+                            return (*pair.fine).*value;
+                          })->fine;
+  double largest = 0;
+  for (const auto &[row, other] : pairs)
+    if (std::abs(row->x_g - top.x_g) < around_peak)
+      largest = std::max(largest, std::abs(row->*value - other->*value));
+  return largest;
+}
+
 // The largest differences of each quantity along the way, "v_g@x_g", and over its last part, "v_g", both by the leading
 // capsule's rows, whose last one is `end`; a mark of the capsule stands behind the quantity.
 std::map<std::string, double> differences(const std::vector<RowPair> &leading, const SeriesRow &end,
@@ -111,7 +126,6 @@ std::map<std::string, double> differences(const std::vector<RowPair> &leading, c
 std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine,
                                               const std::vector<SeriesRow> &coarse, bool by_x_g,
                                               Scheme scheme) {
-  constexpr double around_peak = 0.5;
   const std::optional<Peak> peak = entry_peak(fine);
   const std::optional<Peak> coarse_peak = entry_peak(coarse);
   const std::vector<RowPair> pairs = pair_rows(fine, coarse, by_x_g ? &SeriesRow::x_g : &SeriesRow::time);
@@ -157,7 +171,10 @@ void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fi
     return;
   for (const TransitQuantity &quantity : transit_quantities()) {
     const std::string name = std::string("transit_") + quantity.name;
-    const double difference = std::abs((*transit).*quantity.value - (*other).*quantity.value);
+    double difference = std::abs((*transit).*quantity.value - (*other).*quantity.value);
+    if (quantity.value == &Transit::pulse_height && std::isfinite(difference))
+      difference = std::max(difference, difference_around_largest(pair_rows(fine, coarse, &SeriesRow::x_g),
+                                                                  &SeriesRow::resistance));
     if (std::isfinite(difference))
       errors[name] = safety_of(name, physics.time.scheme) * difference;
   }

@@ -33,10 +33,11 @@ public:
         roughness_limit_(role == Role::main ? roughness_limit : std::numeric_limits<double>::infinity()),
         dynamics_(make_dynamics(input)), rows_(rows_of_capsules(*dynamics_.scene)), record_(from),
         steps_(from.steps) {
+    const FlowResolution flow = choose_resolution(input).flow;
+    const FlowResolution conductor = role == Role::main ? flow : coarser_conductor(flow);
     for (std::size_t k = 0; k < rows_.size(); ++k)
       gauges_.emplace_back(dynamics_.scene->pore, dynamics_.scene->membrane_of(k),
-                           input.output.resistance ? std::optional(choose_resolution(input).flow)
-                                                   : std::nullopt);
+                           input.output.resistance ? std::optional(conductor) : std::nullopt);
     record_.followers.resize(rows_.size() - 1);
     // Not the centre of the start's shape, whose rounding may lie on either side of a place that is asked for.
     const double centre = record_.steps > 0 ? centre_of(0, record_.position) : input.capsule.start_x;

@@ -1,4 +1,5 @@
 // Estimates from made-up series whose differences, peaks and deformations are known.
+#include "case/case.hpp"
 #include "motion/error_estimate.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -94,6 +95,25 @@ BOOST_AUTO_TEST_CASE(peaks_that_agree_by_accident_may_be_shifted) {
   };
   BOOST_TEST(shift(22) == 6 * slope / 4, tolerance(1e-9)); // at x_g = 1.1
   BOOST_TEST(shift(25) == 0);                              // too far away to say something about the peak
+}
+
+// The tops of both pulses agree, rows beside them do not.
+BOOST_AUTO_TEST_CASE(pulses_whose_tops_agree_by_accident) {
+  Case physics;
+  physics.pore.shape = PoreShape::two_mouths;
+  physics.output.resistance = true;
+  physics.until.x_g = 2;
+  Series fine = pulse();
+  for (SeriesRow &row : fine)
+    row.resistance = row.pressure_drop;
+  Series coarse = fine;
+  for (SeriesRow &row : coarse)
+    if (std::abs(row.x_g - top) > 0.2)
+      row.resistance += 1e-3 * std::abs(row.x_g - top);
+  std::map<std::string, double> error;
+  add_errors_of_transit(physics, fine, coarse, error);
+  BOOST_TEST(error.at("transit_pulse_height") > 6 * 1e-3 * 0.4);
+  BOOST_TEST(error.at("transit_pulse_height") < 6 * 1e-3 * 0.5);
 }
 
 // Length and diameter err by the same share: the deformation agrees, but their errors are what it is made of.
