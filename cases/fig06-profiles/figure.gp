@@ -3,7 +3,7 @@ lambda(i) = parameter(run(i), "flow.viscosity_ratio")
 ratio(i) = parameter(run(i), "capsule.aspect_ratio")
 of(sphere) = run(int(sum [i=1:count] (lambda(i) == 1 && (ratio(i) == 1) == sphere ? i : 0)))
 last_x_g = result(run(1), "x_g")
-positions = sprintf("-4 -1 1.2 3.5 6 9 %g", last_x_g)
+positions = sprintf("-4 -1 1.25 3.5 6 9 %g", last_x_g)
 
 do for [part in "a b"] {
   shown = of(part eq "a")

@@ -71,8 +71,7 @@ Key between_mouths(Key key) {
   return of_motion(only_with({"pore.shape", {"two-mouths"}, "flow.type"}, std::move(key)));
 }
 
-// Below these a march takes forever, or rows without end: the shortest one that moves anything, and steps by which a time of
-// hundreds can still grow.
+// A shorter march moves nothing; a shorter step is lost in a time of hundreds.
 constexpr double shortest_time = 1e-6, shortest_step = 1e-12;
 
 std::vector<Key> general_keys() {
@@ -327,6 +326,9 @@ std::vector<Key> output_keys() {
                      member<std::vector<double>>(CAPSULE_AT(output.profiles_at_x_g)), any_number, "none"})),
       of_motion({"output.profiles_at_time", "times at which the profile is written",
                  member<std::vector<double>>(CAPSULE_AT(output.profiles_at_time)), at_least(0), "none"}),
+      of_motion(
+          {"output.profiles_every", "distance of further profiles in x_g; in time where only until.time ends",
+           member<std::optional<double>>(CAPSULE_AT(output.profiles_every)), from_to(1e-3, 1000), "none"}),
       in_a_pore({"output.resistance", "whether the electric resistance that the capsule adds is reported",
                  member<bool>(CAPSULE_AT(output.resistance)), any_number, "false"}),
       between_mouths({"output.transit_from", "x_g from which on the time of the transit is taken",

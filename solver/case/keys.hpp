@@ -14,8 +14,7 @@ inline constexpr const char *flow_key = "flow.capillary_number";
 
 const std::vector<Key> &keys();
 const Key *find_key(const std::string &name);
-// As in names of runs and in expressions: "capillary_number" of "flow.capillary_number"; the whole name where another key
-// has the same last component.
+// As runs are named: "capillary_number" of "flow.capillary_number"; the whole name where another key ends so, too.
 std::string_view short_name(const Key &key);
 
 // Whether the key means something to a case, and why not: `pore.exit_x means nothing to flow.type = "extension"`.

@@ -114,6 +114,7 @@ struct PhysicalSpec {
 struct OutputSpec {
   std::vector<double> profiles_at_x_g;
   std::vector<double> profiles_at_time;
+  std::optional<double> profiles_every; // in x_g, in time where the march ends at a time
   bool resistance = false;
   std::optional<double> transit_from, transit_to; // none: a radius outside of the mouths
 };

@@ -42,15 +42,17 @@ public:
     // Not the centre of the start's shape, whose rounding may lie on either side of a place that is asked for.
     const double centre = record_.steps > 0 ? centre_of(0, record_.position) : input.capsule.start_x;
     const UntilSpec &until = input.until;
+    const auto profiles_every = input.output.profiles_every;
     x_g_stations_ =
         stations(centre, row_spacing, until.last_x_g && !until.x_g ? end_of_way(input.pore) : until.x_g,
-                 input.output.profiles_at_x_g);
+                 input.output.profiles_at_x_g, until.by_place() ? profiles_every : std::nullopt);
     if (until.last_x_g && !until.x_g)
       for (Station &station : x_g_stations_)
         station.end = false;
     const double end = until.time.value_or(std::numeric_limits<double>::infinity());
-    time_stations_ = stations(record_.time, until.by_place() ? end : end / rows_in_time, until.time,
-                              input.output.profiles_at_time);
+    time_stations_ =
+        stations(record_.time, until.by_place() ? end : end / rows_in_time, until.time,
+                 input.output.profiles_at_time, until.by_place() ? std::nullopt : profiles_every);
   }
 
   Outcome run() {

@@ -21,6 +21,7 @@ Case companion(const Case &input) {
   coarse.time.tolerance = 5 * chosen.time_tolerance;
   coarse.output.profiles_at_x_g.clear();
   coarse.output.profiles_at_time.clear();
+  coarse.output.profiles_every.reset();
   return coarse;
 }
 

@@ -5,15 +5,20 @@
 namespace capsule {
 
 std::vector<Station> stations(double from, double spacing, std::optional<double> end,
-                              const std::vector<double> &profiles) {
+                              const std::vector<double> &profiles, std::optional<double> profiles_every) {
   std::vector<Station> list;
+  const auto add_multiples = [&](double distance, bool profile) {
+    const auto first = static_cast<long>(std::floor(from / distance + 1e-9)) + 1;
+    for (long k = first; static_cast<double>(k) * distance < *end; ++k)
+      list.push_back({static_cast<double>(k) * distance, profile, !profile, false});
+  };
   for (const double value : profiles)
     if (value > from && (!end || value <= *end))
       list.push_back({value, true, false, false});
   if (end) {
-    const auto first = static_cast<long>(std::floor(from / spacing + 1e-9)) + 1;
-    for (long k = first; static_cast<double>(k) * spacing < *end; ++k)
-      list.push_back({static_cast<double>(k) * spacing, false, true, false});
+    add_multiples(spacing, false);
+    if (profiles_every)
+      add_multiples(*profiles_every, true);
     list.push_back({*end, true, true, true});
   }
   std::sort(list.begin(), list.end(), [](const Station &a, const Station &b) { return a.value < b.value; });

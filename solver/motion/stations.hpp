@@ -12,9 +12,10 @@ struct Station {
   bool end;     // of the march
 };
 
-// In ascending order, beyond `from`: multiples of the spacing up to the end, the end, and where profiles are asked for.
-// Without an end there are those of the profiles alone. Two that are the same but for a millionth of the spacing are one.
+// In ascending order, beyond `from`: multiples of the spacing up to the end, the end, and where profiles are asked for:
+// at places, and up to the end at multiples of a distance. Without an end there are those of the places alone. Two that are
+// the same but for a millionth of the spacing are one.
 std::vector<Station> stations(double from, double spacing, std::optional<double> end,
-                              const std::vector<double> &profiles);
+                              const std::vector<double> &profiles, std::optional<double> profiles_every = {});
 
 } // namespace capsule

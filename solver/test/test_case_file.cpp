@@ -225,7 +225,8 @@ BOOST_AUTO_TEST_CASE(identity_knows_what_counts) {
                                          "until.x_g=3",
                                          "until.time=3",
                                          "output.profiles_at_x_g=[1]",
-                                         "output.profiles_at_time=[1]"};
+                                         "output.profiles_at_time=[1]",
+                                         "output.profiles_every=0.5"};
   std::set<std::string> identities{identity({})};
   for (const std::string &change : changes)
     BOOST_CHECK_MESSAGE(identities.insert(identity({change})).second, change);

@@ -34,6 +34,19 @@ BOOST_AUTO_TEST_CASE(without_an_end_only_profiles_are_due) {
   BOOST_TEST((list[0].profile && !list[0].regular && !list[0].end));
 }
 
+BOOST_AUTO_TEST_CASE(profiles_at_multiples_of_a_distance) {
+  const std::vector<Station> list = stations(-0.12, 0.05, 0.21, {0.03}, 0.1);
+  std::vector<double> profiles;
+  for (const Station &station : list)
+    if (station.profile)
+      profiles.push_back(station.value);
+  BOOST_REQUIRE(profiles.size() == 6u);
+  const std::vector<double> wanted{-0.1, 0, 0.03, 0.1, 0.2, 0.21};
+  for (std::size_t k = 0; k < 6; ++k)
+    BOOST_TEST(std::abs(profiles[k] - wanted[k]) < 1e-15);
+  BOOST_TEST(list.size() == stations(-0.12, 0.05, 0.21, {0.03}).size());
+}
+
 // An interrupted march meets the rest of the same list.
 BOOST_AUTO_TEST_CASE(from_a_later_place_the_rest_is_due) {
   const std::vector<double> profiles{-3.31, -2, 0.2500000001, 1.7};
