@@ -1,26 +1,34 @@
-// The player: one run, the capsule in its pore at a place x_g, coloured by a field on the membrane, and a cursor on the
-// pressure-drop curve. The data are written into the page by report_page.cpp:
+// The player: a run, the capsule in its pore at an instant, coloured by a field on the membrane, and a cursor on the curve
+// of a quantity; another run in dashes over it. The clock goes by place, x_g, or by time. The data are written into the page
+// by player_data.cpp:
 //   fields[]: name, neutral (the value of the undeformed membrane)
-//   runs[]: case, name, opening_angle (radians), series {x_g, pressure_drop},
+//   quantities[]: column, name, symbol, base (where its axis begins)
+//   runs[]: case, name, directory, walls, opening_angle (radians), second_mouth (or null),
+//     series {x_g, time, and quantities by their columns: {decimals, values[]}},
 //     frames[] {time, x_g, capsules[] {x[], r[], fields[][]}}, the leading capsule first
 "use strict";
 (() => {
-  const { fields, runs } = JSON.parse(document.getElementById("player-data").textContent);
+  const { fields, quantities, runs } = JSON.parse(document.getElementById("player-data").textContent);
   const by_id = (id) => document.getElementById(id);
-  const run_choice = by_id("run"), colour_choice = by_id("colour"), slider = by_id("place");
+  const run_choice = by_id("run"), other_choice = by_id("other-run"), colour_choice = by_id("colour");
+  const quantity_choice = by_id("quantity"), clock_choice = by_id("clock"), slider = by_id("instant");
   const play_button = by_id("play"), pore = by_id("pore"), curve = by_id("curve");
   if (runs.length === 0) {
     by_id("player-none").hidden = false;
     by_id("player-controls").hidden = true;
     return;
   }
-  runs.forEach((run, i) => {
-    if (i === 0 || run.case !== runs[i - 1].case)
-      run_choice.append(Object.assign(document.createElement("optgroup"), { label: run.case }));
-    run_choice.lastElementChild.append(new Option(run.name, i));
-  });
+  other_choice.append(new Option("none", ""));
+  for (const choice of [run_choice, other_choice])
+    runs.forEach((run, i) => {
+      if (i === 0 || run.case !== runs[i - 1].case)
+        choice.append(Object.assign(document.createElement("optgroup"), { label: run.case }));
+      choice.lastElementChild.append(new Option(run.name, i));
+    });
   run_choice.value = 0;
   fields.forEach((field, i) => colour_choice.add(new Option(field.name, i)));
+  const shown_quantities = quantities.filter(({ column }) => runs.some(({ series }) => series[column]));
+  shown_quantities.forEach((quantity, i) => quantity_choice.add(new Option(quantity.name, i)));
 
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const mix = (a, b, share) => a + (b - a) * share;
@@ -32,6 +40,9 @@
     return `rgb(${parts.join(",")})`;
   };
   const chosen_run = () => runs[run_choice.value];
+  const other_run = () => runs[other_choice.value];
+  const shown_runs = () => [chosen_run(), other_run()].filter((run) => run);
+  const quantity = () => shown_quantities[quantity_choice.value];
   const range_of = (values) => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
   // What the run's field takes, and the neutral value in its middle: as many colours above as below.
   const field_scale = () => {
@@ -53,18 +64,19 @@
     by_id("scale-bar").style.background = `linear-gradient(to right, ${stops.join(",")})`;
   };
 
-  // The last index at which the rising values are not beyond the place, and the share of the way to the next.
-  const locate = (values, place) => {
+  // A run that goes nowhere, in a flow without a pore, has a clock by time alone.
+  const moves = ({ frames }) => frames[0].x_g !== frames[frames.length - 1].x_g;
+  const clock = () => (shown_runs().every(moves) ? clock_choice.value : "time");
+  // The last index at which the rising values are not beyond the instant, and the share of the way to the next.
+  const locate = (values, instant) => {
     let i = 0;
-    while (i + 2 < values.length && values[i + 1] <= place)
+    while (i + 2 < values.length && values[i + 1] <= instant)
       i++;
     const width = values[i + 1] - values[i];
-    return [i, width > 0 ? Math.min(1, Math.max(0, (place - values[i]) / width)) : 0];
+    return [i, width > 0 ? Math.min(1, Math.max(0, (instant - values[i]) / width)) : 0];
   };
-  const interpolated = (values, [i, share]) => mix(values[i], values[i + 1], share);
-  const frame_at = (place) => {
-    const { frames } = chosen_run();
-    const [i, share] = locate(frames.map((frame) => frame.x_g), place);
+  const frame_at = ({ frames }, instant) => {
+    const [i, share] = locate(frames.map((frame) => frame[clock()]), instant);
     const between = (a, b) => a.map((value, k) => mix(value, b[k], share));
     const [before, after] = [frames[i], frames[i + 1]];
     const capsules = before.capsules.map((a, k) => {
@@ -72,7 +84,11 @@
       return { x: between(a.x, b.x), r: between(a.r, b.r),
                field: between(a.fields[colour_choice.value], b.fields[colour_choice.value]) };
     });
-    return { time: mix(before.time, after.time, share), capsules };
+    return { x_g: mix(before.x_g, after.x_g, share), capsules };
+  };
+  const nearest_row = ({ series }, instant) => {
+    const [i, share] = locate(series[clock()].values, instant);
+    return share < 0.5 ? i : i + 1;
   };
 
   // A canvas as sharp as the screen, with its size in units of the page.
@@ -100,28 +116,40 @@
     }
     pen.font = "13px sans-serif";
   };
+  const as_html = (symbol) => symbol.replace(/_(.)/g, "<sub>$1</sub>").replace(/\^(.)/g, "<sup>$1</sup>");
 
-  const draw_pore = (place) => {
-    const { pen, width, height } = open_canvas(pore);
-    const scale = height / 4.4; // radii from wall to wall, and of the solid around
-    const middle = height / 2, left = place - width / scale / 2;
-    const at = (x, r) => [(x - left) * scale, middle - r * scale];
-    const { opening_angle, second_mouth } = chosen_run();
+  const dashes = [7, 5];
+  const draw_walls = (pen, { opening_angle, second_mouth, walls }, solid, { width, height, left, scale }) => {
+    if (!walls)
+      return;
+    const middle = height / 2;
     const outside = (x) => Math.max(-x, second_mouth === null ? 0 : x - second_mouth, 0); // of the nearer mouth
     const wall_r = (x) => Math.sqrt(1 + (outside(x) * Math.tan(opening_angle)) ** 2);
-    pen.fillStyle = style("--solid");
-    pen.strokeStyle = style("--ink");
-    pen.lineWidth = 1.5;
     for (const side of [1, -1]) {
       const wall = new Path2D();
       for (let pixel = 0; pixel <= width; pixel++)
         wall.lineTo(pixel, middle - side * Math.min(height, wall_r(left + pixel / scale) * scale));
-      const solid = new Path2D(wall);
-      solid.lineTo(width, middle - side * height);
-      solid.lineTo(0, middle - side * height);
-      pen.fill(solid);
+      if (solid) {
+        const around = new Path2D(wall);
+        around.lineTo(width, middle - side * height);
+        around.lineTo(0, middle - side * height);
+        pen.fill(around);
+      }
       pen.stroke(wall);
     }
+  };
+  const same_walls = (a, b) =>
+    a.walls === b.walls && a.opening_angle === b.opening_angle && a.second_mouth === b.second_mouth;
+  const draw_pore = (instant) => {
+    const { pen, width, height } = open_canvas(pore);
+    const scale = height / 4.4; // radii from wall to wall, and of the solid around
+    const frame = frame_at(chosen_run(), instant), scale_of_field = field_scale();
+    const middle = height / 2, left = frame.x_g - width / scale / 2;
+    const at = (x, r) => [(x - left) * scale, middle - r * scale];
+    pen.fillStyle = style("--solid");
+    pen.strokeStyle = style("--ink");
+    pen.lineWidth = 1.5;
+    draw_walls(pen, chosen_run(), true, { width, height, left, scale });
     pen.setLineDash([12, 4, 2, 4]);
     pen.strokeStyle = style("--faint");
     pen.lineWidth = 1;
@@ -130,11 +158,14 @@
     pen.lineTo(width, middle);
     pen.stroke();
     pen.setLineDash([]);
-    const frame = frame_at(place), scale_of_field = field_scale();
-    for (const { x, r, field } of frame.capsules) {
+    const outline = ({ x, r }) => {
       pen.beginPath();
-      x.forEach((place_of_point, i) => pen.lineTo(...at(place_of_point, r[i])));
+      x.forEach((place, i) => pen.lineTo(...at(place, r[i])));
       [...x.keys()].reverse().forEach((i) => pen.lineTo(...at(x[i], -r[i])));
+    };
+    for (const capsule of frame.capsules) {
+      const { x, r, field } = capsule;
+      outline(capsule);
       pen.fillStyle = style("--card");
       pen.fill();
       pen.lineWidth = 4;
@@ -148,18 +179,38 @@
           pen.stroke();
         }
     }
+    if (other_run()) {
+      pen.setLineDash(dashes);
+      pen.strokeStyle = style("--ink");
+      pen.lineWidth = 1.5;
+      if (!same_walls(chosen_run(), other_run()))
+        draw_walls(pen, other_run(), false, { width, height, left, scale });
+      for (const capsule of frame_at(other_run(), instant).capsules) {
+        outline(capsule);
+        pen.stroke();
+      }
+      pen.setLineDash([]);
+    }
     draw_scale(scale_of_field);
-    return frame.time;
   };
 
+  // The axes are those of all runs: what is seen of one can be compared with another.
+  const values_of_all = (column) => runs.flatMap(({ series }) => series[column]?.values ?? []);
+  const axes = () => {
+    const [left, right] = range_of(values_of_all(clock())), [low, high] = range_of(values_of_all(quantity().column));
+    const bottom = Math.min(low, quantity().base);
+    return { left, right, bottom, top: high + 0.05 * (high - bottom) };
+  };
+  const step_of = (range, wanted) => {
+    const size = 10 ** Math.floor(Math.log10(range / wanted));
+    return size * [1, 2, 5, 10].find((factor) => range / (factor * size) <= wanted);
+  };
   const margin = { left: 56, right: 12, top: 12, bottom: 40 };
-  const span = () => range_of(chosen_run().series.x_g);
-  const draw_curve = (place) => {
+  const draw_curve = (instant) => {
     const { pen, width, height } = open_canvas(curve);
-    const { x_g, pressure_drop } = chosen_run().series;
-    const [left, right] = span(), top = 1.05 * Math.max(...pressure_drop);
+    const { left, right, bottom, top } = axes(), { column, symbol } = quantity();
     const at_x = (x) => mix(margin.left, width - margin.right, (x - left) / (right - left));
-    const at_y = (y) => mix(height - margin.bottom, margin.top, y / top);
+    const at_y = (y) => mix(height - margin.bottom, margin.top, (y - bottom) / (top - bottom));
     pen.font = "13px sans-serif";
     pen.fillStyle = pen.strokeStyle = style("--ink");
     pen.beginPath();
@@ -168,63 +219,112 @@
     pen.lineTo(width - margin.right, height - margin.bottom);
     pen.stroke();
     pen.textAlign = "center";
-    for (let x = 2 * Math.ceil(left / 2); x <= right; x += 2)
-      pen.fillText(x, at_x(x), height - margin.bottom + 16);
-    write_label(pen, "x_g / R_t", (margin.left + width - margin.right) / 2, height - 8);
+    const step_x = step_of(right - left, width / 50), step_y = step_of(top - bottom, height / 28);
+    for (let x = step_x * Math.ceil(left / step_x); x <= right; x += step_x)
+      pen.fillText(+x.toPrecision(6), at_x(x), height - margin.bottom + 16);
+    write_label(pen, clock() === "time" ? "t / (πR_t^3/Q)" : "x_g / R_t", (margin.left + width - margin.right) / 2, height - 8);
     pen.textAlign = "right";
-    const step = 10 ** Math.floor(Math.log10(top)) / (top / 10 ** Math.floor(Math.log10(top)) > 4 ? 1 : 2);
-    for (let y = 0; y <= top; y += step)
+    for (let y = step_y * Math.ceil(bottom / step_y); y <= top; y += step_y)
       pen.fillText(+y.toPrecision(6), margin.left - 6, at_y(y) + 4);
     pen.save();
-    pen.translate(16, (height - margin.bottom + margin.top) / 2);
+    pen.translate(14, (height - margin.bottom + margin.top) / 2);
     pen.rotate(-Math.PI / 2);
-    write_label(pen, "ΔP / (μQ/πR_t^3)", 0, 0);
+    write_label(pen, symbol, 0, 0);
     pen.restore();
-    pen.beginPath();
-    x_g.forEach((x, i) => pen.lineTo(at_x(x), at_y(pressure_drop[i])));
-    pen.strokeStyle = style("--accent");
-    pen.lineWidth = 2;
-    pen.stroke();
-    const value = interpolated(pressure_drop, locate(x_g, place));
     pen.strokeStyle = style("--faint");
     pen.lineWidth = 1;
     pen.beginPath();
-    pen.moveTo(at_x(place), margin.top);
-    pen.lineTo(at_x(place), height - margin.bottom);
+    pen.moveTo(at_x(instant), margin.top);
+    pen.lineTo(at_x(instant), height - margin.bottom);
     pen.stroke();
-    pen.fillStyle = style("--bad");
-    pen.beginPath();
-    pen.arc(at_x(place), at_y(value), 5, 0, 2 * Math.PI);
-    pen.fill();
-    return value;
+    for (const run of shown_runs()) {
+      const is_other = run !== chosen_run(), values = run.series[column]?.values;
+      if (!values) {
+        pen.textAlign = "center";
+        pen.fillText(`not in ${is_other ? "the second" : "this"} run`, width / 2, height / (is_other ? 2.6 : 3));
+        continue;
+      }
+      const places = run.series[clock()].values, row = nearest_row(run, instant);
+      pen.setLineDash(is_other ? dashes : []);
+      pen.strokeStyle = style(is_other ? "--ink" : "--accent");
+      pen.lineWidth = 2;
+      pen.beginPath();
+      places.forEach((x, i) => pen.lineTo(at_x(x), at_y(values[i])));
+      pen.stroke();
+      pen.setLineDash([]);
+      pen.fillStyle = style(is_other ? "--ink" : "--bad");
+      pen.beginPath();
+      pen.arc(at_x(places[row]), at_y(values[row]), is_other ? 4 : 5, 0, 2 * Math.PI);
+      pen.fill();
+    }
+  };
+
+  // A row for each run: the computed row that is nearest to the instant.
+  const write_readout = (instant) => {
+    const columns = [{ column: "x_g", symbol: "x_g" }, { column: "time", symbol: "t" }, ...shown_quantities]
+      .filter(({ column }) => shown_runs().some(({ series }) => series[column]));
+    const short = (symbol) => as_html(symbol.split(" / ")[0].replace("largest ", ""));
+    const value = ({ series }, column, row) => series[column] ? series[column].values[row].toFixed(series[column].decimals) : "";
+    by_id("readout").innerHTML = `<tr>${columns.map(({ symbol }) => `<th scope="col">${short(symbol)}</th>`).join("")}</tr>` +
+      shown_runs().map((run) => `<tr>${columns.map(({ column }) =>
+        `<td data-column="${column}">${value(run, column, nearest_row(run, instant))}</td>`).join("")}</tr>`).join("");
+    slider.setAttribute("aria-valuetext", `${clock() === "time" ? "t" : "x_g"} = ${instant.toFixed(2)}`);
   };
 
   const draw = () => {
-    const place = slider.valueAsNumber;
-    const time = draw_pore(place), pressure_drop = draw_curve(place);
-    by_id("readout").innerHTML =
-      `x<sub>g</sub> = ${place.toFixed(2)}, t = ${time.toFixed(2)}, ΔP = ${pressure_drop.toFixed(3)}`;
-    slider.setAttribute("aria-valuetext", by_id("readout").textContent);
+    const instant = slider.valueAsNumber;
+    draw_pore(instant);
+    draw_curve(instant);
+    write_readout(instant);
   };
 
-  // Another run keeps the place, as far as it goes.
-  const choose_run = () => {
-    const { frames } = chosen_run(), place = slider.valueAsNumber;
-    slider.min = frames[0].x_g;
-    slider.max = frames[frames.length - 1].x_g;
-    slider.value = place;
+  // Other runs keep the instant, as far as they go.
+  const choose = () => {
+    const instant = slider.valueAsNumber;
+    [slider.min, slider.max] = range_of(shown_runs().flatMap(({ frames }) => [frames[0][clock()], frames[frames.length - 1][clock()]]));
+    slider.value = instant;
+    const links = shown_runs().flatMap(({ directory }, i) => ["series.csv", "profiles.csv"].map((name) => {
+      const path = [...directory.split("/"), name].map(encodeURIComponent).join("/");
+      return Object.assign(document.createElement("a"), { href: path, textContent: i ? `second ${name}` : name });
+    }));
+    by_id("data").replaceChildren("Data, beside this page:", ...links);
     draw();
+  };
+  // The same instant by the other clock.
+  let last_clock = clock();
+  const choose_clock = () => {
+    const { series } = chosen_run(), instant = slider.valueAsNumber;
+    const [i, share] = locate(series[last_clock].values, instant), values = series[clock()].values;
+    last_clock = clock();
+    [slider.min, slider.max] = [-1e9, 1e9];
+    slider.value = mix(values[i], values[i + 1], share);
+    choose();
+  };
+  // A run whose pulse is the point shows it.
+  const choose_run = () => {
+    const of_pulse = shown_quantities.findIndex(({ column }) => column === "resistance");
+    if (chosen_run().series.resistance)
+      quantity_choice.value = of_pulse;
+    else if (Number(quantity_choice.value) === of_pulse)
+      quantity_choice.value = 0;
+    if (last_clock === clock())
+      choose();
+    else
+      choose_clock();
   };
 
   let playing = false, last_instant = 0;
-  const play = (instant) => {
+  const play = (now) => {
     if (!playing)
       return;
-    const radii_per_second = 2;
-    slider.value = slider.valueAsNumber + radii_per_second * Math.min(0.1, (instant - last_instant) / 1000);
-    last_instant = instant;
+    const units_per_second = 2 * Number(by_id("speed").value); // radii, or units of time
+    slider.value = slider.valueAsNumber + units_per_second * Math.min(0.1, (now - last_instant) / 1000);
+    last_instant = now;
+    const at_end = slider.valueAsNumber >= Number(slider.max);
+    if (at_end && by_id("loop").checked)
+      slider.value = slider.min;
     draw();
-    if (slider.valueAsNumber >= Number(slider.max))
+    if (at_end && !by_id("loop").checked)
       set_playing(false);
     else
       requestAnimationFrame(play);
@@ -241,12 +341,30 @@
     requestAnimationFrame(play);
   };
 
+  // Both pictures on one sheet, with the names of the runs.
+  const save = () => {
+    const sheet = document.createElement("canvas"), dots = window.devicePixelRatio || 1, line = 22 * dots;
+    const names = shown_runs().map((run, i) => `${i ? "dashed: " : ""}${run.case}: ${run.name}`);
+    names.push(`${clock() === "time" ? "t" : "x_g"} = ${slider.valueAsNumber.toFixed(2)}`);
+    sheet.width = pore.width;
+    sheet.height = pore.height + curve.height + (names.length + 0.5) * line;
+    const pen = sheet.getContext("2d");
+    pen.fillStyle = style("--paper");
+    pen.fillRect(0, 0, sheet.width, sheet.height);
+    pen.fillStyle = style("--ink");
+    pen.font = `${14 * dots}px sans-serif`;
+    names.forEach((name, i) => pen.fillText(name, 8 * dots, (i + 0.8) * line));
+    pen.drawImage(pore, 0, (names.length + 0.5) * line);
+    pen.drawImage(curve, 0, (names.length + 0.5) * line + pore.height);
+    const name = `${chosen_run().directory.replace(/^results\//, "").replace(/[^\w.=,-]+/g, "-")}.png`;
+    Object.assign(document.createElement("a"), { href: sheet.toDataURL(), download: name }).click();
+  };
+
   const drag = (event) => {
     if (event.buttons === 0)
       return;
-    const { left, width } = curve.getBoundingClientRect(), [low, high] = span();
-    const share = (event.clientX - left - margin.left) / (width - margin.left - margin.right);
-    slider.value = mix(low, high, share);
+    const { left: edge, width } = curve.getBoundingClientRect(), { left, right } = axes();
+    slider.value = mix(left, right, (event.clientX - edge - margin.left) / (width - margin.left - margin.right));
     draw();
   };
   curve.addEventListener("pointerdown", (event) => { curve.setPointerCapture(event.pointerId); drag(event); });
@@ -262,8 +380,12 @@
     draw();
   });
   run_choice.addEventListener("change", choose_run);
+  other_choice.addEventListener("change", choose_run);
+  clock_choice.addEventListener("change", choose_clock);
   colour_choice.addEventListener("change", draw);
+  quantity_choice.addEventListener("change", draw);
   play_button.addEventListener("click", () => set_playing(!playing));
+  by_id("save").addEventListener("click", save);
   window.addEventListener("resize", draw);
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
   slider.min = -100;

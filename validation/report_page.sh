@@ -1,6 +1,7 @@
 #!/bin/sh
-# The report's page in a browser without a screen: it loads, the slider and the curve move the capsule, the keyboard
-# does, it plays, another run can be chosen, it fits a narrow screen, nothing is fetched and nothing complains.
+# The report's page in a browser without a screen: the slider, the curve and the keyboard move the capsule, it plays by place
+# and by time, two runs can be overlaid, pictures saved and enlarged, the ledger filtered; it fits a narrow screen, where
+# a finger scrolls it; nothing is fetched and nothing complains.
 #   report_page.sh CAPSULE     with the program `report_page` beside it
 # Skipped (77) where Debian's chromium-driver is missing. Pictures: report-page-*.png in the current directory.
 set -eu
@@ -47,7 +48,22 @@ mkdir -p cases/two
 sed '/^start_x/s/-2.5/[-2.5, -4.2]/; /sweep/,$d' cases/small/case.toml > cases/two/case.toml
 "$capsule" run cases/small > /dev/null 2>&1
 "$capsule" run cases/two > /dev/null 2>&1
-"$report" page.html cases/small cases/two
+mkdir -p figures/small tables validation/uncomputed
+echo '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"><rect width="300" height="200" fill="#fff"/></svg>' > figures/small/shape.svg
+echo '**Figure 5a.** Profiles at x_g = 2: they differ by 1e-05 in max_stretch.' > figures/small/shape.md
+cat > tables/ledger.csv << 'END'
+claim,row,where,kind,statement,published,with the paper's numerics,converged,own error,distance,allowed,verdict,reading and evidence,run,quantity
+A,A-1,Table 2,number,"v_g, lambda 1",1.3012,,1.30174231,2e-06,+0.04 %,0.1 %,agrees,one digit,,
+B,B-1,Table 3,number,"Delta P, lambda 1",18.30,18.31,17.64103,0.006,-0.66,0.05,differs,an error of the paper's mesh,,
+C,C-1,Figure 8,number,x_g at t 18.7,3.44,,3.398205,7e-06,-0.042,0.005,differs,nothing gives it,,
+D,D-1,Table 1,number,"x_g, N_M 60",11.7255558,,11.7254,,,,not decidable,not said,,
+END
+echo '# What is not computed?' > validation/uncomputed/README.md
+"$report" page.html cases/small cases/two validation/uncomputed
+grep -q 'What is not computed? <code>cmake --build build --target study-uncomputed</code>' page.html || fail "a missing study is not named"
+grep -q '<figcaption><strong>Figure 5a.</strong> Profiles at x<sub>g</sub> = 2: they differ by 1·10<sup>-5</sup> in max_stretch' page.html ||
+  fail "the caption's symbols"
+grep -q '<li><a href="#small-shape">Figure 5a</a> Profiles at x<sub>g</sub> = 2</li>' page.html || fail "the list of figures"
 if grep -Eo '(src|href)="(https?:)?//[^"]*"' page.html; then
   fail "the page refers to another place"
 fi
@@ -78,13 +94,19 @@ element() { # the handle of the element with this identifier
 picture() {
   call GET "$at/screenshot" | jq -r .value | base64 -d > "$pictures/report-page-$1.png"
 }
-readout='document.getElementById("readout").textContent'
 drawing='document.getElementById("pore").toDataURL()'
+instant='document.getElementById("instant").valueAsNumber'
+readout() { # a column of the readout, of this row
+  script "document.querySelectorAll('#readout td[data-column=$1]')[${2:-0}].textContent"
+}
 
 call POST "$at/url" "{\"url\": \"file://$place/page.html\"}" > /dev/null
 expect "the page loads" "A capsule enters a pore: report" "$(script document.title)"
 expect "all runs can be chosen" 3 "$(script 'document.getElementById("run").length')"
-expect "it starts before the mouth" "xg = -1.00" "$(script "$readout" | cut -d, -f1)"
+expect "it starts before the mouth" -1 "$(script "Number('$(readout x_g)')")"
+expect "the readout has as many decimals as the estimated error leaves" true "$(script '(() => {
+  const { runs } = JSON.parse(document.getElementById("player-data").textContent), { decimals } = runs[0].series.pressure_drop;
+  return document.querySelector("#readout td[data-column=pressure_drop]").textContent.split(".")[1].length === decimals })()')"
 expect "the solid around the pore is drawn" '#c9ced4' "$(script '(() => {
   const pore = document.getElementById("pore"), corner = pore.getContext("2d").getImageData(pore.width - 3, 3, 1, 1).data;
   return "#" + [...corner.slice(0, 3)].map((part) => part.toString(16)).join("") })()')"
@@ -103,22 +125,29 @@ drag() { # element, from and to: horizontal shares of its half width, from its c
 }
 call POST "$at/execute/sync" '{"script": "document.getElementById(\"player\").scrollIntoView()", "args": []}' > /dev/null
 before=$(script "$drawing" | cksum)
-drag place 0 0.9
-test "$(script "$readout" | cut -d, -f1)" != "xg = -1.00" || fail "the slider does not follow the mouse"
+drag instant 0 0.9
+test "$(readout x_g)" != -1.000 || fail "the slider does not follow the mouse"
 test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not follow the slider"
 echo "ok: dragging the slider moves the capsule"
-before=$(script "$readout")
+before=$(readout x_g)
 drag curve 0.5 -0.5
-test "$(script "$readout")" != "$before" || fail "the curve does not follow the mouse"
+test "$(readout x_g)" != "$before" || fail "the curve does not follow the mouse"
 echo "ok: dragging on the curve moves the capsule"
 
-before=$(script 'document.getElementById("place").valueAsNumber')
-call POST "$at/element/$(element place)/value" '{"text": "\uE014\uE014"}' > /dev/null # right arrow, twice
-expect "the arrow keys move the capsule" 0.2 "$(script "(document.getElementById('place').valueAsNumber - $before).toFixed(1)")"
+before=$(script "$instant")
+call POST "$at/element/$(element instant)/value" '{"text": "\uE014\uE014"}' > /dev/null # right arrow, twice
+expect "the arrow keys move the capsule" 0.2 "$(script "($instant - $before).toFixed(1)")"
+axes='(() => { const curve = document.getElementById("curve"), strip = document.createElement("canvas");
+  strip.width = 50;
+  strip.height = curve.height;
+  strip.getContext("2d").drawImage(curve, 0, 0);
+  return strip.toDataURL() })()'
+axes_before=$(script "$axes" | cksum)
 before=$(script "$drawing" | cksum)
 call POST "$at/element/$(element run)/value" '{"text": "\uE015"}' > /dev/null # down arrow
 expect "the keyboard chooses the other run" 1 "$(script 'document.getElementById("run").value')"
 test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not follow the run"
+expect "the axes are those of the other run" "$axes_before" "$(script "$axes" | cksum)"
 before=$(script "$drawing" | cksum)
 call POST "$at/element/$(element colour)/value" '{"text": "\uE015"}' > /dev/null
 test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not follow the colour"
@@ -130,20 +159,80 @@ before=$(script "$drawing" | cksum)
 call POST "$at/element/$(element run)/value" '{"text": "\uE015"}' > /dev/null
 test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not follow the run of two capsules"
 picture two
-script 'document.getElementById("place").value = -2' > /dev/null
+choose() { # element, value
+  script "(() => { const choice = document.getElementById('$1'); choice.value = '$2'; choice.dispatchEvent(new Event('change')) })()" > /dev/null
+}
+choose run 0
+before=$(script "$drawing" | cksum)
+choose other-run 1
+test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not show the second run"
+expect "two runs are overlaid at one place" "$(readout x_g)" "$(readout x_g 1)"
+picture overlaid
+before=$(readout x_g)
+choose clock time
+expect "the other clock shows the same instant" "$before" "$(readout x_g)"
+expect "two runs are overlaid at one time, but for the distance of their rows" true "$(script "Math.abs($(readout time) - $(readout time 1)) < 0.1")"
+choose clock x_g
+choose other-run ""
+script 'document.getElementById("instant").value = -2' > /dev/null
+choose speed 0.25
 call POST "$at/element/$(element play)/click" '{}' > /dev/null
 sleep 0.5
-expect "playing moves the capsule" true "$(script "document.getElementById('place').valueAsNumber > -2")"
-picture dragged
+expect "playing moves the capsule" true "$(script "$instant > -2")"
+call POST "$at/element/$(element loop)/click" '{}' > /dev/null
+choose speed 4
+sleep 1.5
+expect "a loop goes on" true "$(script 'document.getElementById("play").getAttribute("aria-pressed")')"
+call POST "$at/element/$(element play)/click" '{}' > /dev/null
+picture played
 
+call POST "$at/goog/cdp/execute" "{\"cmd\": \"Browser.setDownloadBehavior\", \"params\": {\"behavior\": \"allow\", \"downloadPath\": \"$place/saved\"}}" > /dev/null
+call POST "$at/element/$(element save)/click" '{}' > /dev/null
+for _ in $(seq 50); do
+  [ -s saved/small-viscosity_ratio=1.png ] && break
+  sleep 0.1
+done
+expect "the picture is saved" PNG "$(head -c 4 saved/small-viscosity_ratio=1.png | tail -c 3)"
+test -s "$(script 'decodeURIComponent(new URL(document.querySelector("#data a").href).pathname)')" || fail "the link to series.csv"
+echo "ok: the data are linked"
+
+shown='[...document.querySelectorAll("#claims tbody")].filter((row) => !row.hidden).map((row) => row.dataset.outcome).join()'
+expect "the ledger begins with its sums" "4 rows,1 agree,1 differ because the paper's mesh is too coarse,1 are not reproduced,1 cannot be decided" \
+  "$(script '[...document.querySelectorAll("#sums button")].map((button) => button.textContent).join()')"
+script 'document.querySelector("#sums button.mesh").click()' > /dev/null
+expect "a sum is a filter" mesh "$(script "$shown")"
+script 'document.querySelector("#sums button").click()' > /dev/null
+call POST "$at/element/$(element find)/value" '{"text": "table v"}' > /dev/null
+expect "words are found" agrees "$(script "$shown")"
+expect "a number has the digits that its error leaves" "1.301742 ± 2·10-6" "$(script 'document.querySelector("#claims td[data-label=ours]").textContent')"
+
+expect "figures begin small" false "$(script 'document.getElementById("enlarged").open')"
+script 'document.querySelector("button.enlarge").click()' > /dev/null
+expect "a figure is enlarged" true "$(script 'document.getElementById("enlarged").open && document.querySelector("#enlarged img").getBoundingClientRect().width > 900')"
+script 'document.querySelector("#enlarged button").click()' > /dev/null
+expect "it can be closed" false "$(script 'document.getElementById("enlarged").open')"
+
+call POST "$at/goog/cdp/execute" '{"cmd": "Emulation.setDeviceMetricsOverride",
+  "params": {"width": 1400, "height": 900, "deviceScaleFactor": 1, "mobile": false}}' > /dev/null
+expect "player and curve are seen together" true "$(script '(() => { const at = (id) => document.getElementById(id).getBoundingClientRect();
+  return at("curve").bottom - at("player-title").top < 900 })()')"
 call POST "$at/goog/cdp/execute" '{"cmd": "Emulation.setDeviceMetricsOverride",
   "params": {"width": 360, "height": 740, "deviceScaleFactor": 2, "mobile": true}}' > /dev/null
 call POST "$at/goog/cdp/execute" '{"cmd": "Emulation.setEmulatedMedia",
   "params": {"features": [{"name": "prefers-color-scheme", "value": "dark"}]}}' > /dev/null
 expect "it fits a narrow screen" true "$(script 'document.documentElement.scrollWidth <= 360')"
 expect "it is dark where dark is wanted" 'rgb(20, 23, 27)' "$(script 'getComputedStyle(document.body).backgroundColor')"
+expect "figures follow" true "$(script 'getComputedStyle(document.querySelector("figure img")).filter.includes("invert")')"
+expect "claims are cards" block "$(script 'getComputedStyle(document.querySelector("#claims tbody")).display')"
 script 'document.getElementById("player").scrollIntoView()' > /dev/null
 picture narrow-dark
+call POST "$at/goog/cdp/execute" '{"cmd": "Emulation.setTouchEmulationEnabled", "params": {"enabled": true}}' > /dev/null
+before=$(script scrollY)
+call POST "$at/actions" "$(jq -n --argjson y "$(script 'Math.round(document.getElementById("curve").getBoundingClientRect().top + 40)')" '
+  {actions: [{type: "pointer", id: "finger", parameters: {pointerType: "touch"}, actions: [
+    {type: "pointerMove", x: 180, y: $y}, {type: "pointerDown", button: 0},
+    {type: "pointerMove", duration: 300, x: 180, y: ($y - 250)}, {type: "pointerUp", button: 0}]}]}')" > /dev/null
+expect "a finger on the curve scrolls the page" true "$(script "scrollY > $before + 100")"
 
 expect "nothing complains" 0 "$(call POST "$at/se/log" '{"type": "browser"}' | jq '.value | length')"
 call DELETE "$at" > /dev/null
