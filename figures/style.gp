@@ -67,12 +67,22 @@ end
 at_x_g(position, name) = abs(column("x_g") - position) < 1e-6 ? column(name) : NaN
 at_time(time, name) = abs(column("time") - time) < 1e-6 ? column(name) : NaN
 
+# A whole outline, both halves as one closed curve of x and r, in a profile where a column has the value:
+#   plot outline(profiles(run(1)), "x_g", -4) using 1:2 with lines
+outline(file, column, value) = sprintf("< awk -F, -v name=%s -v value=%.10g ' \
+  NR == 1 {for (i = 1; i <= NF; ++i) place[$i] = i; print \"x,r\"; next} \
+  ($place[name] - value)^2 < 1e-12 {x[++n] = $place[\"x\"]; r[n] = $place[\"r\"]; print x[n] \",\" r[n]} \
+  END {for (i = n; i > 0; --i) print x[i] \",\" (-r[i])}' %s", column, value, quoted(file))
+
 # Colours that the colour-blind tell apart (Okabe and Ito), each with its own dashes and mark.
 set linetype 1 linewidth 1.5 linecolor rgb "#000000" dashtype 1 pointtype 6
 set linetype 2 linewidth 1.5 linecolor rgb "#D55E00" dashtype (12, 4) pointtype 4
 set linetype 3 linewidth 1.5 linecolor rgb "#0072B2" dashtype (4, 3) pointtype 8
 set linetype 4 linewidth 1.5 linecolor rgb "#009E73" dashtype (10, 3, 2, 3) pointtype 12
 set linetype 5 linewidth 1.5 linecolor rgb "#CC79A7" dashtype (2, 2) pointtype 10
+set linetype 6 linewidth 1.5 linecolor rgb "#E69F00" dashtype (8, 2, 2, 2, 2, 2) pointtype 2
+# The same one for a viscosity ratio in all figures of the paper's; run i has its own for another ratio.
+linetype_of_ratio(ratio, i) = ratio == 0.2 ? 1 : ratio == 1 ? 2 : ratio == 5 ? 3 : ratio == 10 ? 4 : i
 wall_colour = "#D8D8D8"
 capsule_colour = "#FBE5D6"
 capsule_fill = "filledcurves closed fillstyle solid border linewidth 0.5 linecolor rgb capsule_colour"
@@ -105,7 +115,9 @@ of_the_paper = int(system("cut -d, -f3 tables/published.csv | grep -cxF -e ".quo
 tables = of_the_paper > 0 ? out."/../tables" : pictures
 table(name) = sprintf("set print tables.'/%s.csv'", name)
 end_table(name) = sprintf("set print; end_table_ = system(as_markdown(tables.'/%s'))", name)
-as_markdown(file) = "sed 's/,/ | /g; s/^/| /; s/$/ |/; 1{p; s/[^|]\\+/ --- /g}' ".quoted(file.".csv")." > ".quoted(file.".md")
+as_markdown(file) = "sed 's/,/ | /g; s/^/| /; s/$/ |/; ".plain_numbers."; 1{p; s/[^|]\\+/ --- /g}' ".quoted(file.".csv")." > ".quoted(file.".md")
+# As people write them: 1e-6 for 1e-06, 0.00 for -0.00.
+plain_numbers = 's/\([0-9]e\)+*\(-*\)0\([0-9]\)/\1\2\3/g; s/\(^\|[ (]\)-\(0\.0*\)\([^0-9]\|$\)/\1\2\3/g'
 # A cell: the number in this format, empty where there is none.
 cell(form, x) = x == x ? sprintf(form, x) : ""
 
@@ -141,6 +153,8 @@ do for [format in "svg png"] {
   load source."/figure.gp"
   unset output
 }
+captions = quoted(pictures)."/*.md"
+rewritten = system("for file in ".captions."; do [ ! -e \"$file\" ] || sed -i '".plain_numbers."' \"$file\"; done")
 # A caption with a number that is not there.
 set print "-"
 incomplete = system("grep -lwiE -- '-?nan' ".quoted(pictures)."/*.md")

@@ -1,7 +1,5 @@
 # What is drawn, and what it shows: figures/style.gp, which loads this, explains run(i), series, result and the rest.
 name(i) = parameter_word(run(i), "physical.flow_rate")
-shown = run(count) # the shapes are those of the last run
-positions = sprintf("-4 -2 0 2 6 %g", result(shown, "x_g"))
 
 eval figure("pressure", 12, 8)
 set xlabel "{/:Italic x}_g / μm"; set ylabel "Δ{/:Italic P} / Pa"
@@ -16,11 +14,20 @@ plot for [i=1:count] series_physical(run(i)) using (1e6 * column("x_g [m]")):"pr
 print "**Pressure.** Extra pressure drop that the capsule causes on its way into the tube and along it, at the most", \
   pressures."."
 
-eval figure("shapes", 17, 4.8)
-eval view(-5.2, 11.5, -2, 2)
-set xtics 1; set ytics 1
-plot @wall, for [p in positions] for [side=-1:1:2] \
-  profiles(shown) using (at_x_g(p, "x")):(side * column("r")) with lines linetype 1
-print sprintf("**Shapes.** The capsule on its way at %s: its membrane is stretched by at most %.0f %%", \
-  name(count), 100 * (result(shown, "max_stretch") - 1)), \
-  sprintf("in the end and leaves a film of %.3f tube radii.", result(shown, "min_film"))
+eval figure("shapes", 17, 1.6 + 3.1 * count)
+set multiplot layout count, 1 margins 0.08, 0.99, 1.2 / (1.6 + 3.1 * count), 0.99 spacing 0, 0.02
+stretches = ""; films = ""
+do for [i=1:count] {
+  eval view(-5.2, 11.5, -1.6, 1.6)
+  set xtics 1; set ytics 1
+  if (i < count) { set format x ""; unset xlabel } else { set format x "%g" }
+  set label 1 name(i) at 11.3, 1.3 right front
+  positions = sprintf("-4 -2 0 2 4 6 8 %g", result(run(i), "x_g"))
+  plot @wall, for [p in positions] outline(profiles(run(i)), "x_g", p + 0) using 1:2 with @capsule_fill, \
+    for [p in positions] outline(profiles(run(i)), "x_g", p + 0) using 1:2 with lines linetype 1
+  stretches = listed(stretches, sprintf("%.0f %%", 100 * (result(run(i), "max_stretch") - 1)))
+  films = listed(films, sprintf("%.3f", result(run(i), "min_film")))
+}
+unset multiplot
+print "**Shapes.** The capsule on its way, a row for each run. In the end its membrane is stretched by at most", \
+  stretches, "and leaves a film of", films, "tube radii."

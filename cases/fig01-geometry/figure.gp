@@ -36,8 +36,8 @@ set label "{/:Italic M}" at start + 0.4, -1.3 left
 set arrow from start - 0.9, -1.6 to start - 0.05, -0.5 nohead linewidth 0.5 front
 set label "Ω_{int}" at start - 1.2, -1.9 center
 set label "Ω_{ext}" at 9, -0.5 center
-plot @wall, for [side=-1:1:2] profiles(run(1)) using (at_x_g(start, "x")):(side * column("r")) with @capsule_fill, \
-  for [side=-1:1:2] profiles(run(1)) using (at_x_g(start, "x")):(side * column("r")) with lines linetype 1, \
+plot @wall, outline(profiles(run(1)), "x_g", start) using 1:2 with @capsule_fill, \
+  outline(profiles(run(1)), "x_g", start) using 1:2 with lines linetype 1, \
   [t=pi - opening_angle:pi] '+' using (1.1 * cos(t)):(1.1 * sin(t)) with lines linetype 1 linewidth 0.8
 print "**Figure 1.** The computed pore and capsule at its start, to scale, with the names of the paper: a tube behind a", \
   sprintf("hyperbolic mouth of α = %g°, and an ellipsoid of semi-axes A = %.3f and B = %.3f pore radii, whose", degrees, A, B), \

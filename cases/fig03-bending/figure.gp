@@ -23,10 +23,8 @@ set origin 0, 0; set size 0.5, 1
 eval view(-5.2, 3, -2, 2)
 set xtics 1; set ytics 1
 positions = sprintf("-4 -1.5 %g", end(1, "x_g"))
-plot @wall, for [p in positions] for [side=-1:1:2] \
-    profiles(run(1)) using (at_x_g(p, "x")):(side * column("r")) with @capsule_fill, \
-  for [p in positions] for [side=-1:1:2] \
-    profiles(run(1)) using (at_x_g(p, "x")):(side * column("r")) with lines linetype 1
+plot @wall, for [p in positions] outline(profiles(run(1)), "x_g", p + 0) using 1:2 with @capsule_fill, \
+  for [p in positions] outline(profiles(run(1)), "x_g", p + 0) using 1:2 with lines linetype 1
 rear = number(system(sprintf("awk -F, 'NR > 1 && ($2 - %.10g)^2 < 1e-12 && $3 == 0 {printf \"%%.16e\", $4}' %s", \
   end(1, "x_g"), quoted(profiles(run(1))))))
 set origin 0.49, 0; set size noratio 0.24, 1
@@ -50,13 +48,19 @@ print "**Figure 2.** The capsule without bending stiffness as it enters (left), 
   sprintf("at x_g = %g it has wrinkled, in waves as short as the mesh allows.", end(1, "x_g"))
 
 eval figure("fig03", 12, 8)
-set xrange [-4:12]; set yrange [0:8]
+set xrange [-4:12]; set yrange [0:9.5]
 set xlabel x_g_label; set ylabel pressure_label
-set key at 11.8, 0.3 right bottom
-plot for [i=count:1:-1] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i), \
+set key at 12, 9.5 right top maxrows 2 width -1
+set multiplot
+plot for [i=1:count] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i), \
   for [i in wrinkled] $one using (end(i, "x_g")):(end(i, "pressure_drop")) with points linetype i+0 pointtype 2, \
   NaN with points linetype 1 pointtype 2 title "wrinkled"
-print sprintf("**Figure 3.** Extra pressure drop for different bending stiffnesses. %d are too small: the membrane wrinkles", \
-    words(wrinkled)), \
-  sprintf("at x_g = %s. Where wrinkles are prevented the stiffness has a weak effect: at x_g = %g the pressure drop is %s.", \
-    wrinkled_at, end(word(smooth, 1), "x_g"), pressures)
+set origin 0.48, 0.17; set size 0.49, 0.45
+set xrange [0.9:2.3]; set yrange [3.5:4.3]
+set xtics 0.5; set ytics 0.2
+unset key; unset xlabel; unset ylabel
+replot
+unset multiplot
+print "**Figure 3.** Extra pressure drop for different bending stiffnesses, and where they part. With the smallest", \
+  sprintf("%d the membrane wrinkles at x_g = %s. Where wrinkles are prevented the stiffness has a weak effect: at x_g = %g the pressure drop is %s.", \
+    words(wrinkled), wrinkled_at, end(word(smooth, 1), "x_g"), pressures)

@@ -11,10 +11,8 @@ do for [part in "a b"] {
   eval figure("fig06".part, 17, 4.8)
   eval view(-5.2, 13, -2, 2)
   set xtics 1; set ytics 1
-  plot @wall, for [p in positions] for [side=-1:1:2] \
-      profiles(shown) using (at_x_g(p, "x")):(side * column("r")) with @capsule_fill, \
-    for [p in positions] for [side=-1:1:2] \
-      profiles(shown) using (at_x_g(p, "x")):(side * column("r")) with lines linetype 1
+  plot @wall, for [p in positions] outline(profiles(shown), "x_g", p + 0) using 1:2 with @capsule_fill, \
+    for [p in positions] outline(profiles(shown), "x_g", p + 0) using 1:2 with lines linetype 1
   if (part eq "a") {
     print sprintf("**Figure 6a.** Successive profiles of the sphere for λ = %g.", parameter(shown, "flow.viscosity_ratio")), \
       "It elongates in the mouth and settles to a", \

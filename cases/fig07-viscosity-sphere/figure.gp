@@ -1,5 +1,6 @@
 lambda(i) = parameter(run(i), "flow.viscosity_ratio")
 name(i) = sprintf("{/:Italic λ} = %g", lambda(i))
+line(i) = linetype_of_ratio(lambda(i), i)
 one = run_with("flow.viscosity_ratio", 1)
 last_x_g = result(one, "x_g")
 table2(i, quantity) = published(sprintf("T2-%g-%s", lambda(i), quantity))
@@ -18,8 +19,8 @@ eval end_table("table2")
 # How far the capsules are from the one with λ = 1, and from the published values.
 pressures = ""; velocities = ""; pressure_marks = ""; velocity_marks = ""; timed = ""
 do for [i=1:count] {
-  pressure_marks = pressure_marks.mark(i, last_x_g, table2(i, "dP"))
-  velocity_marks = velocity_marks.mark(i, last_x_g, table2(i, "vg"))
+  pressure_marks = pressure_marks.mark(line(i), last_x_g, table2(i, "dP"))
+  velocity_marks = velocity_marks.mark(line(i), last_x_g, table2(i, "vg"))
   timed = timed.(run(i) eq one || i == count ? " ".i : "")
   pressures = listed(pressures, distance(result(run(i), "pressure_drop"), table2(i, "dP")))
   velocities = listed(velocities, distance(result(run(i), "v_g"), table2(i, "vg")))
@@ -38,7 +39,7 @@ eval figure("fig05a", 8.6, 5.6)
 eval view(last_x_g - 1.14, last_x_g + 1.26, 0, 1.3)
 set xtics 0.5; set ytics 0.5
 set key at last_x_g + 0.51, 0.65
-plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" with lines linetype i title name(i)
+plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" with lines linetype line(i) title name(i)
 print sprintf("**Figure 5a.** Profiles at x_g = %g for different viscosity ratios. They lie on each other:", last_x_g), \
   "the steady shape does not depend on the internal liquid."
 
@@ -47,7 +48,7 @@ set multiplot
 set xrange [-4:12]; set yrange [0:18]
 set xlabel x_g_label; set ylabel pressure_label
 set key at -3.7, 18 left top
-plot for [i=1:count] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i) @pressure_marks
+plot for [i=1:count] series(run(i)) using "x_g":"pressure_drop" with lines linetype line(i) title name(i) @pressure_marks
 set origin 0.47, 0.18; set size 0.5, 0.46
 set xrange [9:12]; set yrange [lowest - 0.4:highest + 0.3]
 set xtics 1; set ytics 0.5
@@ -66,7 +67,7 @@ set xrange [-4:12]; set yrange [0:1.4]
 set xlabel x_g_label; set ylabel velocity_label
 set ytics 0.2
 set key at 11.8, 0.1 right bottom
-plot for [i=1:count] series(run(i)) using "x_g":"v_g" with lines linetype i title name(i) @velocity_marks
+plot for [i=1:count] series(run(i)) using "x_g":"v_g" with lines linetype line(i) title name(i) @velocity_marks
 print "**Figure 7b.** Velocity of the centre of mass along the pore: the viscosity ratio matters little on the way and", \
   "not in the end.", distances_to_table2(velocities)
 
@@ -77,14 +78,15 @@ places = ""; marks = ""
 do for [i in timed] {
   places = listed(places, sprintf("x_g = %.2f for λ = %g", position(i), lambda(i)). \
     (published_position(i) > 0 ? sprintf(" (published: %g)", published_position(i)) : ""))
-  marks = marks.mark(i, published_position(i), 0)
+  marks = marks.mark(line(i), published_position(i), 0)
 }
 marks = marks.marks_title(marks, "{/:Italic x}_g")
 eval figure("fig08", 8.6, 8.6)
 eval view(2.3, 4.8, -1.3, 1.3)
 set xtics 0.5; set ytics 0.5
-set key at 3.55, 0.5 center
-plot @wall, for [i in timed] for [side=-1:1:2] profiles(run(i)) using (at_time(18.7, "x")):(side * column("r")) \
-    with lines linetype i+0 title (side > 0 ? name(i) : "") @marks
+set key at 3.6, -0.42 center
+plot @wall, for [i in timed] outline(profiles(run(i)), "time", 18.7) using 1:2 with lines linetype line(i + 0) title name(i), \
+  for [i in timed] $one using (position(i)):(0) with points linetype line(i + 0) pointtype 2 pointsize 0.7, \
+  NaN with points linetype 1 pointtype 2 pointsize 0.7 title "{/:Italic x}_g, here" @marks
 print "**Figure 8.** Profiles at t = 18.7. The less viscous capsule is a parachute already, the most viscous one has a", \
   "flat rear and lags behind:", places."."

@@ -22,7 +22,7 @@ do for [size in radii] {
   set label sprintf("{/:Italic R}_{eq} = %s", size) at result(end, "x_g") - 0.2, result(end, "pressure_drop") right offset 0, 0.8
 }
 plot for [i=1:count] series(run(i)) using "x_g":"pressure_drop" with lines \
-    linetype int(place(lambdas, lambda(i))) title (abs(radius(i) - radius(1)) < 1e-9 ? sprintf("{/:Italic λ} = %g", lambda(i)) : "")
+    linetype linetype_of_ratio(lambda(i), int(place(lambdas, lambda(i)))) title (abs(radius(i) - radius(1)) < 1e-9 ? sprintf("{/:Italic λ} = %g", lambda(i)) : "")
 
 peak(size, ratio) = result(run(int(of(size, ratio))), "peak_pressure_drop")
 end_pressure(size) = result(run(int(of(size, first_lambda))), "pressure_drop")

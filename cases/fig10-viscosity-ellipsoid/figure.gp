@@ -1,5 +1,6 @@
 lambda(i) = parameter(run(i), "flow.viscosity_ratio")
 name(i) = sprintf("{/:Italic λ} = %g", lambda(i))
+line(i) = linetype_of_ratio(lambda(i), i)
 one = run_with("flow.viscosity_ratio", 1)
 last_x_g = result(one, "x_g")
 table3(i, quantity) = published(sprintf("T3-%g-%s", lambda(i), quantity))
@@ -18,7 +19,7 @@ eval end_table("table3")
 pressures = ""; marks = ""
 lowest = result(one, "pressure_drop"); highest = lowest
 do for [i=1:count] {
-  marks = marks.mark(i, last_x_g, table3(i, "dP"))
+  marks = marks.mark(line(i), last_x_g, table3(i, "dP"))
   pressures = listed(pressures, distance(result(run(i), "pressure_drop"), table3(i, "dP")))
   lowest = result(run(i), "pressure_drop") < lowest ? result(run(i), "pressure_drop") : lowest
   highest = result(run(i), "pressure_drop") > highest ? result(run(i), "pressure_drop") : highest
@@ -30,7 +31,7 @@ eval figure("fig05b", 8.6, 5.6)
 eval view(last_x_g - 1.14, last_x_g + 1.26, 0, 1.3)
 set xtics 0.5; set ytics 0.5
 set key at last_x_g + 0.5, 0.75
-plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" with lines linetype i title name(i)
+plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" with lines linetype line(i) title name(i)
 print sprintf("**Figure 5b.** Profiles of the ellipsoid at x_g = %g for different viscosity ratios: parachutes with", last_x_g), \
   sprintf("a sharp rim at the rear. The pressure drops still differ by %.1f %%.", spread)
 
@@ -39,7 +40,7 @@ set multiplot
 set xrange [-4:12]; set yrange [0:50]
 set xlabel x_g_label; set ylabel pressure_label
 set key at 11.9, 1.5 right bottom maxrows 3 width -2
-plot for [i=1:count] series(run(i)) using "x_g":"pressure_drop" with lines linetype i title name(i) @marks
+plot for [i=1:count] series(run(i)) using "x_g":"pressure_drop" with lines linetype line(i) title name(i) @marks
 set origin 0.52, 0.5; set size 0.46, 0.46
 set xrange [9:12]; set yrange [lowest - 0.3:lowest + 1.3]
 set xtics 1; set ytics 0.5

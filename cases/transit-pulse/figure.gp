@@ -17,10 +17,8 @@ eval figure("shapes", 17, 5)
 shown = run(int(word(spheres, words(spheres))))
 eval view(-3.6, 9.6, -2, 2)
 set xtics 1; set ytics 1
-plot @both_walls, for [p in "-2 0 2 4 6 8"] for [side=-1:1:2] \
-    profiles(shown) using (at_x_g(p, "x")):(side * column("r")) with @capsule_fill, \
-  for [p in "-2 0 2 4 6 8"] for [side=-1:1:2] \
-    profiles(shown) using (at_x_g(p, "x")):(side * column("r")) with lines linetype 1
+plot @both_walls, for [p in "-2 0 2 4 6 8"] outline(profiles(shown), "x_g", p + 0) using 1:2 with @capsule_fill, \
+  for [p in "-2 0 2 4 6 8"] outline(profiles(shown), "x_g", p + 0) using 1:2 with lines linetype 1
 print sprintf("**Shapes.** The sphere at ε = %g on its way through both mouths.", parameter(shown, "flow.capillary_number"))
 
 eval figure("pulse", 17, 11)
