@@ -37,13 +37,14 @@ Parsed parse(std::string_view text, char comment = '\0') {
       fields[0] += c;
       continue;
     }
-    if (parsed.open_quote > 0 && c == '"' && next == '"')
-      fields.back() += text[++i];
-    else if (parsed.open_quote > 0 && c == '"')
-      parsed.open_quote = 0;
-    else if (parsed.open_quote > 0)
-      fields.back() += c;
-    else if (line_end)
+    if (parsed.open_quote > 0) {
+      if (c != '"')
+        fields.back() += c;
+      else if (next == '"')
+        fields.back() += text[++i];
+      else
+        parsed.open_quote = 0;
+    } else if (line_end)
       parsed.rows.push_back({line, {""}});
     else if (c == ',')
       fields.emplace_back();

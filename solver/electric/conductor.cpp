@@ -182,7 +182,7 @@ RowMatrix Conductor::in_equations(const Curve &dipoles, const NearRule &near) co
 
 // What is known of u_0 in the right sides.
 Vector Conductor::source_in_equations() const {
-  const Vector at_points = source_of_current(points_);
+  Vector at_points = source_of_current(points_);
   if (!circle_)
     return at_points;
   constexpr double current = 0.5; // pi over the azimuth's 2 pi

@@ -14,12 +14,16 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
   constexpr double intended = 0.25, too_much = 0.7; // part of the motion that its linearisation misses
   constexpr double near = 3e-3;                     // a change that Newton's method can take up
   constexpr double at_rest = 1e-9;                  // a velocity that is none
-  constexpr double torn = 6;                        // stretch of a membrane that runs away
+  constexpr double small = 1e-3;                    // a motion whose linearisation is good on a fine mesh
+  constexpr int most_poor = 5;
+  constexpr double torn = 6; // stretch of a membrane that runs away
   const Eigen::Index n2 = 2 * system.nodes();
   shape.head(n2 / 2).array() -= system.residual(shape)[n2]; // its centre to where the equations want it
   system.fit_tube(shape);
   SteadySystem::Linearisation linear = system.linearise(shape);
   double step = first_step, most_growth = 10;
+  int poor = 0;
+  double speed_before = 0; // of the last step that was taken
   for (int k = 0; k < most_steps && step > shortest_step && system.largest_stretch(shape) < torn; ++k) {
     throw_if_interrupted(control);
     Matrix implicit = linear.jacobian;
@@ -42,9 +46,20 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
     if (error < too_much) {
       shape += change;
       linear = std::move(*next);
-      if (step > long_step && moved < near)
+      // The way that is left, if the motion goes on to decay as it did: a steep decay may be as far as a poor linearisation, on a
+      // coarse mesh, lets the steps grow.
+      const double speed = moved / step;
+      const double way_left = speed < speed_before ? moved / std::log(speed_before / speed)
+                                                   : std::numeric_limits<double>::infinity();
+      if ((step > long_step && moved < near) || way_left < near)
         return shape;
+      speed_before = speed;
     }
+    // A linearisation that misses as much of a small motion as of a large one is that of a finer mesh.
+    poor = error > intended / 2 && moved < small ? poor + 1 : 0;
+    if (poor > most_poor)
+      throw NumericsFailure(failure_kind::unresolved, "the mesh is too coarse for the shape in the tube",
+                            "try a finer mesh.membrane");
     step *= std::clamp(intended / error, 0.25, most_growth);
     most_growth = error < too_much ? std::min(2 * most_growth, 10.0) : 1.0;
   }
