@@ -49,6 +49,10 @@ bool has_value(const Case &physics, const Key &key, const std::string &text) {
 
 std::optional<double> key_value(const std::string &name, const Case &physics) {
   const Key *key = key_named(name);
+  if (const auto *measured = key != nullptr ? std::get_if<Measured>(&key->field) : nullptr) {
+    const double si = measured->member.of(physics).si;
+    return si > 0 ? std::optional(si) : std::nullopt; // 0: not given
+  }
   return key != nullptr ? number(*key, physics) : std::nullopt;
 }
 
@@ -102,6 +106,14 @@ std::vector<std::size_t> profile_rows(const Columns &profiles, const std::option
   if (rows.empty())
     throw NoValue("no value");
   return rows;
+}
+
+// The estimated error of what a reference names; none if nothing is known of it.
+std::optional<double> estimated_error(const RunResult &run, const std::string &name,
+                                      const Reference &reference) {
+  const std::string place = reference.places.empty() ? "" : '@' + reference.places[0].column;
+  const auto found = run.summary->error_estimate.find(name + place);
+  return found == run.summary->error_estimate.end() ? std::nullopt : std::optional(found->second);
 }
 
 Values profile_values(const Columns &profiles, const Reference &reference) {
@@ -196,6 +208,9 @@ bool RunTable::has_column(const fs::path &file, const std::string &name) const {
 // "x_g#2" is x_g of the second capsule, whose tables are series-2.csv and profiles-2.csv; of the leading one they have no
 // number.
 Values RunTable::values_in(const RunResult &run, const Reference &reference) const {
+  if (constexpr std::string_view prefix = "error_estimate."; reference.name.starts_with(prefix))
+    if (const auto error = estimated_error(run, reference.name.substr(prefix.size()), reference))
+      return {*error};
   const std::size_t mark = reference.name.find('#');
   const std::string quantity = reference.name.substr(0, mark);
   const std::string number = mark == std::string::npos ? "" : reference.name.substr(mark + 1);
@@ -246,12 +261,8 @@ std::optional<double> RunTable::error_estimate(const Expression &expression, con
     for (std::size_t i = 0; i < references.size(); ++i)
       for (const RunResult *one : selected(references[i], case_name, run)) {
         const Reference &reference = references[i];
-        std::string name = reference.name;
-        if (!reference.places.empty())
-          name += '@' + reference.places[0].column;
-        const auto error = one->summary->error_estimate.find(name);
-        if (error != one->summary->error_estimate.end())
-          all.push_back({i, one, error->second});
+        if (const auto error = estimated_error(*one, reference.name, reference))
+          all.push_back({i, one, *error});
         else if (!reference.places.empty() || !key_value(reference.name, one->input.physics))
           return std::nullopt;
       }

@@ -1,7 +1,8 @@
 #pragma once
 // What the names of an expression (expression.hpp) mean in a run:
 //   a quantity of summary.json             pressure_drop, peak_pressure_drop
-//   a key of the case                      capsule.radius, or radius
+//   its estimated error                    error_estimate.pressure_drop, error_estimate.v_g@x_g=0
+//   a key of the case                      capsule.radius, or radius; physical.viscosity in SI units
 //   a column of series.csv at a place      x_g@time=18.7, min_film@x_g=-4..4
 //   a column of profiles.csv               r, tension_meridional@x_g=1@S=0
 //     of the last profile, or of that at a time or x_g; all its points, or those at a place S

@@ -96,6 +96,9 @@ BOOST_FIXTURE_TEST_CASE(of_other_runs, Project) {
   BOOST_TEST(value("v_g{there: viscosity_ratio=1}/v_g{flow.viscosity_ratio=1.0; law=skalak}") == 4);
   BOOST_TEST(value("max(v_g{viscosity_ratio=1|5|10})") == 4);
   BOOST_TEST(value("max(v_g{})") == 4);
+  BOOST_TEST(value("error_estimate.v_g") == 0.01);
+  BOOST_TEST(value("error_estimate.v_g@x_g=0") == 0.02);
+  BOOST_TEST(nothing("error_estimate.roughness") == "no value");
   BOOST_TEST(nothing("v_g{viscosity_ratio=10}") == "no such run");
   BOOST_TEST(nothing("v_g{law=neo-hookean}") == "no such run");
   BOOST_TEST(nothing("v_g{nowhere: }") == "no such run");

@@ -1,0 +1,112 @@
+#!/bin/sh
+# Numbers in prose are those of the results. Behind a number that comes from a run stands a mark, a comment that no page shows:
+#   7.1764<!-- table1-mesh/: pressure_drop -->                  CASE/RUN: QUANTITY; RUN may be empty, for all
+#   14.31<!-- viscosity_ratio=1: pressure_drop -->              in a case's README.md, of this case
+#   1e-5<!-- < : max(abs(volume_change@x_g=-100..1000)) -->     a bound, or with > one from below
+# RUN and QUANTITY are written as in tables/published.csv (solver/compare/expectations.hpp). The printed number may be off by half
+# a unit of its last digit and the estimated error of the result. Marks become rows of a table of expectations, and
+# `capsule ledger` compares them. Then one digit of a copy is changed, and a run and a quantity are misspelt: each must be found.
+#   sh validation/prose_numbers.sh path/to/capsule
+. "$(dirname "$0")/lib/program.sh"
+[ -d "$project/results/runs" ] || {
+  echo "skipped: needs the results of the cases, by make figures"
+  exit 77
+}
+ln -s "$project/cases" "$project/results" .
+
+# table_of FILE...: the rows of the marks in these files, in a project's directory. Says where a comment is no mark.
+table_of() {
+  awk '
+    function quoted(text) { gsub(/"/, "\"\"", text); return "\"" text "\"" }
+    function complain(what) { print FILENAME ":" FNR ": " what > "/dev/stderr"; bad = 1 }
+    BEGIN { print "id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,converged,verdict,evidence" }
+    {
+      for (line = $0; at = index(line, "<!--"); line = substr(line, at + 4 + end + 2)) {
+        before = substr(line, 1, at - 1)
+        end = index(substr(line, at + 4), "-->")
+        mark = substr(line, at + 4, end - 1)
+        colon = index(mark, ":")
+        if (end == 0 || colon == 0) { complain("a comment is \"CASE/RUN: QUANTITY\", on one line"); next }
+        if (!match(before, /[-+]?[0-9]+(\.[0-9]+)?(e[-+]?[0-9]+)?$/)) {
+          complain("the mark" mark "stands behind no number")
+          continue
+        }
+        printed = substr(before, RSTART)
+        sub(/^\+/, "", printed)
+        run = substr(mark, 1, colon - 1)
+        quantity = substr(mark, colon + 1)
+        gsub(/^ +| +$/, "", run)
+        gsub(/^ +| +$/, "", quantity)
+        bound = match(run, /^[<>]/) ? substr(run, 1, 1) : ""
+        sub(/^[<>] */, "", run)
+        split(FILENAME, folders, "/")
+        of = folders[1] == "cases" ? folders[2] : ""
+        slash = index(run, "/")
+        if (slash && index(substr(run, 1, slash), "=") == 0) {
+          of = substr(run, 1, slash - 1)
+          run = substr(run, slash + 1)
+        }
+        if (of == "") { complain("the mark" mark "names no case"); continue }
+        digits = printed
+        exponent = sub(/e.*/, "", digits) ? substr(printed, index(printed, "e") + 1) : 0
+        decimals = index(digits, ".") ? length(digits) - index(digits, ".") : 0
+        allowed = bound == "" ? "5e" (exponent - decimals - 1) : ""
+        ++count
+        print count "," FILENAME ":" FNR "," of "," quoted(run) "," quoted(quantity) "," bound printed "," allowed ",," count \
+          ",behaviour,,,agrees,"
+      }
+    }
+    END { exit bad }' "$@"
+}
+
+# compare FILE...: what the marks in these files say, against results/. Names each number that is not so; ends as the program.
+compare() {
+  mkdir -p tables
+  table_of "$@" >tables/published.csv || return
+  code=0
+  "$capsule" ledger --table compared >log 2>&1 || code=$?
+  [ $code -eq 0 ] || [ $code -eq 1 ] || { # a row that cannot be read is named by its place
+    awk -F, 'NR == FNR { place[FNR] = $2; next }
+             match($0, /published.csv:[0-9]+:1: /) {
+               $0 = place[substr($0, RSTART + 14, RLENGTH - 18)] ": " substr($0, RSTART + RLENGTH)
+             }
+             { print }' tables/published.csv log
+    return $code
+  }
+  # Digits within the estimated error of a result are another machine's.
+  awk -F, 'function apart(a, b) { return a > b ? a - b : b - a }
+           NR == FNR { split($0, text, "\""); asked[$1] = text[2] ": " text[4]; next }
+           $12 == "NOT AS RECORDED" && ($6 ~ /^[<>]/ || $8 !~ /^[-+.0-9e]+$/ || apart($6, $8) > $11 + $9) {
+             print $3 ": printed " $6 ", computed " $8 " (" asked[$1] ")"
+             wrong = 1
+           }
+           END { exit wrong }' tables/published.csv compared.csv
+}
+
+(cd "$project" && ls README.md cases/*/README.md paper-notes/*.md) >files
+while read -r file; do
+  case $file in cases/*) ;; *) mkdir -p "$(dirname "$file")" && cp "$project/$file" "$file" ;; esac
+done <files
+# shellcheck disable=SC2046 # names of files, without spaces
+compare $(cat files) || fail "numbers in prose are not those of the results: put them right, or make figures"
+echo "$(($(wc -l <tables/published.csv) - 1)) numbers in prose are those of the results"
+
+# A changed copy of this line must be found, and named by its place.
+says() { # LINE PATTERN: what is said of it
+  printf '\n%s\n' "$1" >copy.md
+  ! compare copy.md >said 2>&1 || fail "'$1' is taken for right"
+  grep -q "^copy.md:2: .*$2" said || { cat said && fail "nothing like '$2' is said of '$1'"; }
+}
+line=$(grep -ho '[0-9.]*<!-- table1-mesh-paper-numerics/membrane=60: pressure_drop -->' paper-notes/findings.md | head -1)
+[ -n "$line" ] || fail "paper-notes/findings.md has no mark for the first mesh of Table 1"
+echo "$line" >copy.md
+compare copy.md >said || fail "'$line' is not taken for right"
+last=$(echo "$line" | sed 's/.*\([0-9]\)<!--.*/\1/')
+says "$(echo "$line" | sed "s/[0-9]<!--/$(((last + 1) % 10))<!--/")" 'printed 7.1.*, computed 7.1'
+says "$(echo "$line" | sed 's/=60/=61/')" 'no such run'
+says "$(echo "$line" | sed 's/table1/table0/')" 'no such run'
+says "$(echo "$line" | sed 's/membrane=/membrance=/')" membrance
+says "$(echo "$line" | sed 's/_drop/_dorp/')" 'no value'
+says "$(echo "$line" | sed 's/.*<!--/about <!--/')" 'behind no number'
+says '5<!-- < table1-mesh-paper-numerics/membrane=60: pressure_drop -->' 'printed <5, computed 7.1'
+echo 'a changed digit, an unknown run and an unknown quantity are found'
