@@ -1,5 +1,5 @@
 #!/bin/sh
-# README.md's map of figures, cases and runs says what the cases of the paper say.
+# cases/README.md's map of figures, cases and runs says what the cases of the paper say.
 #   sh validation/case_map.sh path/to/capsule
 set -eu
 capsule=$(realpath "$1")
@@ -10,8 +10,8 @@ for directory in cases/*/; do
   id=$(basename "$directory")
   paper=$(sed -n 's/^paper = "\(.*\)"$/\1/p' "cases/$id/case.toml")
   runs=$("$capsule" show "cases/$id" | sed -n 's/^# \([0-9]*\) runs*, .*/\1/p')
-  if [ -n "$paper" ] && ! grep -Fq "| $paper | \`cases/$id\` | $runs" README.md; then
-    echo "README.md has no row '| $paper | \`cases/$id\` | $runs ...'"
+  if [ -n "$paper" ] && ! grep -Fq "| $paper | \`cases/$id\` | $runs" cases/README.md; then
+    echo "cases/README.md has no row '| $paper | \`cases/$id\` | $runs ...'"
     failures=$((failures + 1))
   fi
   [ -s "cases/$id/README.md" ] || { echo "cases/$id has no README.md"; failures=$((failures + 1)); }
