@@ -162,6 +162,8 @@ std::string capsule_name(const Json &parameters) {
     }
   name += fmt::format(", size {}, ε = {}, λ = {}", number("capsule.radius"), number("flow.capillary_number"),
                       number("flow.viscosity_ratio"));
+  if (parameters.at("membrane.shear_viscosity") != 0.0)
+    name += fmt::format(", viscous membrane {}", number("membrane.shear_viscosity"));
   if (parameters.at("capsule.start_x").is_array())
     name += fmt::format(", starting at {}", number("capsule.start_x"));
   const Json &nodes = parameters.at("mesh.membrane");

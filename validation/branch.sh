@@ -72,7 +72,11 @@ bending_ratio = 0.01
 TOML
 ends 0 branch physical.toml --along physical.flow_rate --to '30 nl/s' --out physical
 near "$(of physical $key)" "$fold" 1e-6 'the fold in physical units'
-near "$(sed -n 's/.*fold at a flow rate of \(.*\) m3\/s.*/\1/p' log | awk '{ print 1e10 * $1 }')" "$fold" 1e-4 'its flow rate'
+near "$(sed -n 's/.*fold at a flow rate of \(.*\) nl\/s.*/\1/p' log | awk '{ print $1 / 100 }')" "$fold" 1e-4 'its flow rate'
+for rates in '"10 nl/s", "12 nl/s"' '"12 nl/s", "10 nl/s"'; do
+  ends 0 branch physical.toml --along physical.flow_rate --to '30 nl/s' --set "sweep.physical.flow_rate=[$rates]" --list
+  [ "$(grep -c 'flow_rate=' log)" = 1 ] && grep -q 'flow_rate=10nl_per_s' log || fail 'a branch and a part of it'
+done
 ends 2 branch physical.toml --along physical.flow_rate --to 30 --out physical && grep -q "'30' has no unit" log ||
   fail 'a flow rate without a unit'
 ends 2 branch case.toml --along physical.flow_rate --to '30 nl/s' --out physical && grep -q 'no physical units' log ||

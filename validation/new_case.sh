@@ -38,7 +38,9 @@ done
 for figure in pressure shapes; do
   [ -s figures/first-case/$figure.svg ] || fail "no $figure.svg of the example's copy"
 done
-grep -q '8 of 8 rows agree' log || fail "the example's copy does not keep its expectations"
+grep -q 'first-case: AS RECORDED: 9 of 9 rows agree' log || fail "the example's copy does not begin green"
+grep -q '^title = "first-case"' cases/first-case/case.toml || fail 'the copy has no title of its own'
+grep -q '^paper' cases/my-case/case.toml && fail 'the copy is of an item of the paper'
 grep -q 'λ = 0.5' figures/my-case/fig07a.md || fail 'the captions do not speak of the runs'
 grep -i -E '(^|[^a-z])-?nan' figures/my-case/*.md figures/my-case/*.svg tables/*.md && fail 'a number is missing'
 [ ! -e figures/deleted-case ] || fail 'the pictures of a case that is no longer there stay'

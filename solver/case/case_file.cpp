@@ -7,8 +7,10 @@
 #include "case/physical.hpp"
 #include "case/value_lists.hpp"
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <set>
 
@@ -223,12 +225,29 @@ bool lists_agree(const Chosen &chosen) {
   return true;
 }
 
-// What a directory may be called by, without unit or slash: the values of all capsules in SI units.
-std::string si_text(const Key &key, const Case &physics) {
-  std::vector<Value> values;
+// A quantity as it was typed, of what a directory may be called by: "5uL_per_min" for "5 µL/min".
+std::string directory_text(const Quantity &quantity) {
+  if (quantity.written.empty())
+    return number_text(quantity.si);
+  std::string text;
+  for (const char32_t c : decoded(quantity.written))
+    if (c == U'/')
+      text += "_per_";
+    else if (c == U'\u00b5' || c == U'\u03bc')
+      text += 'u';
+    else if (c < 128 && (std::isalnum(static_cast<int>(c)) != 0 || c == U'.' || c == U'-' || c == U'+'))
+      text += static_cast<char>(c);
+  return text;
+}
+
+// Of all capsules; once, if they have the same.
+std::string directory_text(const Key &key, const Case &physics) {
+  std::vector<std::string> texts;
   for (const Case *capsule : capsules_of(physics))
-    values.emplace_back(std::get<Measured>(key.field).member.of(*capsule).si);
-  return plain_text(joined(values));
+    texts.push_back(directory_text(std::get<Measured>(key.field).member.of(*capsule)));
+  if (std::ranges::all_of(texts, [&](const std::string &text) { return text == texts.front(); }))
+    texts.resize(1);
+  return fmt::format("{}", fmt::join(texts, "_"));
 }
 
 // By the swept values that make a difference to a capsule.
@@ -245,7 +264,7 @@ std::string run_name(const Chosen &chosen, const Case &physics, const Task &task
       continue;
     name += fmt::format("{}{}={}", name.empty() ? "" : ",", short_name(key),
                         std::holds_alternative<Measured>(key.field)
-                            ? si_text(key, physics)
+                            ? directory_text(key, physics)
                             : plain_text(assignment.values[chosen.selection[i]].value));
   }
   return name;

@@ -48,6 +48,16 @@ std::string resolved_toml(const Case &physics) {
   return toml_of(physics, [](const Key &key) { return !is_of_fits(key); });
 }
 
+std::string changed_toml(const Case &physics, const Case &than) {
+  return toml_of(physics, [&](const Key &key) {
+    const auto text = [&key](const Case &of) {
+      const auto value = value_of(key, of);
+      return value ? value_text(*value) : "";
+    };
+    return !is_of_fits(key) && text(physics) != text(than);
+  });
+}
+
 bool same_input(const Case &a, const Case &b, const Task &task) {
   return what_counts(a, task) == what_counts(b, task);
 }

@@ -10,6 +10,9 @@ struct Case;
 // All keys that mean something to a run and are not chosen automatically, as a case file that gives the same run again.
 std::string resolved_toml(const Case &physics);
 
+// Of these keys those that have another value in a second case, or none.
+std::string changed_toml(const Case &physics, const Case &than);
+
 // Whether two inputs are the same to a task, whatever their title.
 bool same_input(const Case &a, const Case &b, const Task &task = {});
 

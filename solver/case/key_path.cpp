@@ -1,5 +1,6 @@
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
+#include "case/physical.hpp"
 #include "case/value_lists.hpp"
 #include <algorithm>
 #include <cmath>
@@ -64,7 +65,10 @@ Case KeyPath::at(double part) const {
 }
 
 std::string KeyPath::text(double part) const {
-  return fmt::format("{} = {:.6g}", key_, value(part));
+  return fmt::format("{} = {:.6g}{}", key_, value(part),
+                     key_ == flow_key && has_physical(start_)
+                         ? fmt::format(" ({})", flow_rate_text(start_, value(part)))
+                         : "");
 }
 
 } // namespace capsule

@@ -30,7 +30,7 @@ public:
   double value(double part) const;
   double slope(double part) const; // d value/d part
   Case at(double part) const;
-  std::string text(double part) const; // "flow.capillary_number = 0.05"
+  std::string text(double part) const; // "flow.capillary_number = 0.05", in physical units "... (20 nl/s)"
 
 private:
   bool is_straight() const { return from_ < 0 || to_ < 0 || natural_size(key_, 0) > 0; }

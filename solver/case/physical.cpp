@@ -1,4 +1,5 @@
 #include "case/physical.hpp"
+#include "base/text.hpp"
 #include "case/empty_pore.hpp"
 #include <algorithm>
 #include <array>
@@ -142,6 +143,15 @@ std::string flow_rate_text(const Case &physics) {
   return fmt::format("Q = {:.6g} m3/s without a capsule{}", flow_rate(physics),
                      pressure.si > 0 ? ", which " + quantity_text(pressure, dimension::pressure) + " drives"
                                      : "");
+}
+
+std::string flow_rate_text(const Case &physics, double capillary_number) {
+  const double si = flow_rate(physics) * capillary_number / physics.flow.capillary_number;
+  const Quantity &own = physics.physical.flow_rate;
+  char *unit = nullptr;
+  const double typed = own.written.empty() ? 0 : std::strtod(own.written.c_str(), &unit);
+  return typed > 0 ? fmt::format("{:.4g} {}", si * typed / own.si, trimmed(unit))
+                   : fmt::format("{:.4g} {}", si, unit_text(dimension::flow_rate));
 }
 
 double reynolds_number(const Case &physics) {

@@ -117,7 +117,8 @@ std::vector<std::string> trimmed_fields(const CsvRow &row) {
 // The rows of a file with these columns. What has no column is as in `blank`.
 std::vector<Expectation> read_table(const fs::path &table, std::span<const Column> columns,
                                     const Expectation &blank) {
-  const std::vector<CsvRow> lines = read_csv(table);
+  std::vector<CsvRow> lines = read_csv(table, '#');
+  std::erase_if(lines, [](const CsvRow &row) { return trimmed(row.fields.at(0)).starts_with("#"); });
   std::string errors;
   const auto complain = [&](std::size_t line, const std::string &message) {
     errors += csv_error(table, line, message);

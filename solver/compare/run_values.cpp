@@ -31,10 +31,12 @@ const Key *key_named(const std::string &name) {
   return found == keys().end() ? nullptr : &*found;
 }
 
-// A physical quantity may be given in any unit, or as a number in SI units, as in the names of runs.
+// A physical quantity may be given in any unit, as in the names of runs ("5uL_per_min"), or as a number in SI units.
 bool has_value(const Case &physics, const Key &key, const std::string &text) {
   if (const auto *measured = std::get_if<Measured>(&key.field)) {
-    const auto read = read_quantity(text, measured->dimension);
+    std::string typed = text;
+    std::ranges::replace(typed, '_', ' ');
+    const auto read = read_quantity(typed, measured->dimension);
     const auto *quantity = std::get_if<Quantity>(&read);
     const auto si = quantity != nullptr ? quantity->si : to_number(text);
     return si && *si == measured->member.of(physics).si;

@@ -48,11 +48,15 @@ bool in_physical_units(const Case &physics, const Outcome &outcome) {
 std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow> &series) {
   const Scales scales = physical_scales(physics);
   std::vector<Column> columns;
-  for (const ReportedQuantity &quantity : reported_quantities())
-    if (has_scale(quantity.unit, scales) &&
-        is_reported(quantity, series.empty() ? SeriesRow{} : series.front()))
+  for (const ReportedQuantity &quantity : reported_quantities()) {
+    if (!is_reported(quantity, series.empty() ? SeriesRow{} : series.front()))
+      continue;
+    if (has_scale(quantity.unit, scales))
       columns.push_back(
           {name_with_unit(quantity.name, *quantity.unit), quantity.value, scales.*quantity.unit->scale});
+    else if (!quantity.unit && std::string_view(quantity.name).ends_with("_stretch"))
+      columns.push_back({quantity.name, quantity.value});
+  }
   return csv_of(columns, series);
 }
 

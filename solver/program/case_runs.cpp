@@ -86,14 +86,14 @@ std::string report_in_si(const RunResult &result) {
   const Summary &summary = *result.summary;
   if (!has_physical(result.input.physics))
     return "";
-  const Scales scales = physical_scales(result.input.physics);
-  std::string text = "\n  in SI units:";
   if (!summary.along.empty()) { // along most keys the scales change
-    const double unit = scales.flow_rate / result.input.physics.flow.capillary_number;
-    for (const double fold : summary.folds)
-      text += fmt::format("  fold at a flow rate of {:.4g} {}", fold * unit, unit_text(dimension::flow_rate));
-    return summary.along == flow_key && !summary.folds.empty() ? text : "";
+    std::string folds;
+    for (const double fold : summary.along == flow_key ? summary.folds : std::vector<double>())
+      folds += fmt::format("\n  fold at a flow rate of {}", flow_rate_text(result.input.physics, fold));
+    return folds;
   }
+  const Scales scales = physical_scales(result.input.physics);
+  std::string text;
   for (const auto &[label, name] : told_quantities(summary)) {
     const auto value = summary.quantities.find(name);
     const auto quantity = std::ranges::find(reported_quantities(), name, &ReportedQuantity::name);
@@ -101,7 +101,7 @@ std::string report_in_si(const RunResult &result) {
       text += fmt::format("  {} {:.4g} {}", label, value->second * scales.*quantity->unit->scale,
                           unit_text(quantity->unit->dimension));
   }
-  return text;
+  return text.empty() ? "" : "\n  in SI units:" + text;
 }
 
 std::string report(const RunResult &result, const std::string &name, RunEnd end) {

@@ -4,8 +4,12 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/identity.hpp"
+#include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include "case/new_case.hpp"
 #include "case/physical.hpp"
+#include "case/value_lists.hpp"
+#include "compare/text_table.hpp"
 #include "output/tables.hpp"
 #include "program/fit_profiles.hpp"
 #include "program/progress.hpp"
@@ -15,9 +19,12 @@
 #include "steady/branch.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <functional>
 #include <set>
+#include <sstream>
 
 namespace capsule {
 namespace {
@@ -63,6 +70,75 @@ ExitCode compute_runs(const CaseInput &whole, const Arguments &arguments, const 
   return std::ranges::any_of(results, has_failed) ? ExitCode::numerics_failed : ExitCode::done;
 }
 
+// A group of a run as a table shows it, of several capsules one behind the other.
+std::string group_text(const std::string &name, const Case &physics) {
+  const Key &key = *find_key(name);
+  std::vector<std::string> texts;
+  for (const Case *capsule : capsules_of(physics))
+    if (const auto value = means_something(key, *capsule) ? get_value(key, *capsule) : std::nullopt) {
+      const auto real = number(key, *capsule);
+      texts.push_back(real ? number_text(std::stod(fmt::format("{:.4g}", *real))) : plain_text(*value));
+    }
+  return fmt::format("{}", fmt::join(texts, " "));
+}
+
+// What is to be known of all runs before they are computed.
+std::vector<std::string> remarks_on(const CaseInput &input) {
+  std::vector<std::string> remarks;
+  const RunInput *fastest = nullptr;
+  double accuracy = 0;
+  for (const RunInput &run : input.runs) {
+    if (has_physical(run.physics) &&
+        (fastest == nullptr || reynolds_number(run.physics) > reynolds_number(fastest->physics)))
+      fastest = &run;
+    if (!run.physics.followers.empty() && run.physics.flow.drive != DriveBy::pressure)
+      accuracy = std::max(accuracy, run.physics.accuracy);
+  }
+  if (fastest != nullptr)
+    remarks = {flow_rate_text(fastest->physics), reynolds_text(fastest->physics)};
+  if (accuracy > 0)
+    remarks.push_back(
+        fmt::format("in the tube capsules move as if alone, to this accuracy, beyond a gap of about {:.1f}",
+                    gap_without_interaction(accuracy)));
+  return remarks;
+}
+
+// Where runs would follow parts of one branch, only the one that begins farthest from its end on either side is left.
+CaseInput different_branches(CaseInput input, const Task &task,
+                             const std::function<BranchEnd(const Case &)> &end_of) {
+  struct Start {
+    Case rest;                    // the case but for the key
+    double end = 0, distance = 0; // of the beginning from the end, with its sign
+    std::size_t run = 0;
+  };
+  constexpr double rounding = 1e-12; // of a flow rate that is made a capillary number
+  std::vector<Start> starts;
+  for (std::size_t i = 0; i < input.runs.size(); ++i) {
+    const Case &physics = input.runs[i].physics;
+    const BranchEnd end = end_of(physics);
+    Start start{with_number(physics, end.key, 1), end.value, number(end.key, physics) - end.value, i};
+    if (end.key == flow_key)
+      start.rest.physical.flow_rate = start.rest.physical.pressure = {};
+    const auto same = std::ranges::find_if(starts, [&](const Start &other) {
+      return other.distance * start.distance > 0 &&
+             std::abs(other.end - start.end) <= rounding * std::abs(start.end) &&
+             same_input(other.rest, start.rest, task);
+    });
+    if (same == starts.end())
+      starts.push_back(start);
+    else if (std::abs(start.distance) > std::abs(same->distance))
+      *same = start;
+  }
+  std::vector<RunInput> kept;
+  for (const Start &start : starts)
+    kept.push_back(input.runs[start.run]);
+  if (kept.size() < input.runs.size())
+    fmt::print(stderr, "{}: {} of {} runs lie on the branches of the others\n", input.name,
+               input.runs.size() - kept.size(), input.runs.size());
+  input.runs = kept;
+  return input;
+}
+
 } // namespace
 
 ExitCode run_case(const Arguments &arguments) {
@@ -85,7 +161,7 @@ ExitCode find_steady_states(const Arguments &arguments) {
 ExitCode follow_branches(const Arguments &arguments) {
   const Task task{.motion = false,
                   .name = fmt::format("branch --along {} --to {}", arguments.along, arguments.to)};
-  const CaseInput input = read_case_of(arguments, task);
+  CaseInput input = read_case_of(arguments, task);
   const auto end = [&](const Case &physics) { return end_of_branch(physics, arguments.along, arguments.to); };
   for (const auto &[name, physics] : input.runs)
     require_branch(physics, end(physics).key, end(physics).value);
@@ -93,7 +169,7 @@ ExitCode follow_branches(const Arguments &arguments) {
                             const Control &control) {
     return follow_branch(physics, end(physics).key, end(physics).value, control);
   };
-  return compute_runs(input, arguments, {task, method});
+  return compute_runs(different_branches(std::move(input), task, end), arguments, {task, method});
 }
 
 ExitCode fit_case(const Arguments &arguments) {
@@ -108,25 +184,31 @@ ExitCode show_case(const Arguments &arguments) {
   const RunOptions options = run_options(arguments, input);
   std::size_t finished = 0;
   double seconds_left = 0;
+  std::vector<TextRow> table{{"run", "law", "R_eq", "eps", "lambda", "delta", "Re", "state"}};
   for (const RunInput &run_input : input.runs) {
+    const Case &physics = run_input.physics;
     const RunState state = state_of(run_input, options);
-    const double left = (1 - state.fraction) * estimated_seconds(run_input.physics);
+    const double left = (1 - state.fraction) * estimated_seconds(physics);
     finished += state.finished ? 1 : 0;
     seconds_left += left;
-    const Case &physics = run_input.physics;
-    fmt::print(
-        "# {}: {}\n{}{}{}\n", name_of(run_input, input),
-        state.finished ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
-                       : fmt::format("{}, about {} to go", unfinished_text(state), duration_text(left)),
-        has_physical(physics) ? fmt::format("# {}\n# {}\n", flow_rate_text(physics), reynolds_text(physics))
-                              : "",
-        physics.followers.empty() || physics.flow.drive == DriveBy::pressure
-            ? ""
-            : fmt::format(
-                  "# in the tube capsules move as if alone, to this accuracy, beyond a gap of about {:.1f}\n",
-                  gap_without_interaction(physics.accuracy)),
-        resolved_toml(physics));
+    table.push_back(
+        {name_of(run_input, input), group_text("membrane.law", physics),
+         group_text("capsule.radius", physics), group_text(flow_key, physics),
+         group_text("flow.viscosity_ratio", physics), group_text("membrane.bending_ratio", physics),
+         has_physical(physics) ? fmt::format("{:.2g}", reynolds_number(physics)) : "",
+         state.finished ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
+                        : fmt::format("{}, about {} to go", unfinished_text(state), duration_text(left))});
+    if (&run_input == &input.runs.front())
+      fmt::print("{}\n", resolved_toml(physics));
+    else
+      fmt::print("# {}, where it differs from the first run\n{}\n", name_of(run_input, input),
+                 changed_toml(physics, input.runs.front().physics));
   }
+  for (const std::string &remark : remarks_on(input))
+    fmt::print("# {}\n", remark);
+  std::istringstream lines(text_table(table));
+  for (std::string line; std::getline(lines, line);)
+    fmt::print("# {}\n", line);
   fmt::print("# {}, {} finished, about {} of one core to go\n", counted(input.runs.size(), "run"), finished,
              duration_text(seconds_left));
   return ExitCode::done;

@@ -702,6 +702,21 @@ BOOST_AUTO_TEST_CASE(inherited_values_that_mean_nothing) {
       "--set:1:21: error: membrane.dilatation means nothing");
 }
 
+// The directory of a run is called as its quantity was typed.
+BOOST_AUTO_TEST_CASE(names_of_runs_in_physical_units) {
+  const TemporaryDirectory directory;
+  const auto file = directory.write(
+      "case.toml", "membrane.law = 'skalak'\n[physical]\ntube_radius = '50 um'\n"
+                   "capsule_radius = '40 um'\nviscosity = '1 Pa.s'\n"
+                   "shear_modulus = '0.05 N/m'\n[sweep]\n"
+                   "'physical.flow_rate' = ['5 uL/min', '0.5 \u00b5L/min', '1e-3 mm^3 s^-1']\n");
+  const CaseInput input = read_case(file);
+  BOOST_REQUIRE(input.runs.size() == 3u);
+  BOOST_TEST(input.runs[0].name == "flow_rate=5uL_per_min");
+  BOOST_TEST(input.runs[1].name == "flow_rate=0.5uL_per_min");
+  BOOST_TEST(input.runs[2].name == "flow_rate=1e-3mm3s-1");
+}
+
 BOOST_AUTO_TEST_CASE(values_that_serve_some_of_the_runs) {
   const TemporaryDirectory directory;
   const std::string radius = "capsule.radius = 0.9\nflow.capillary_number = 0.04\n";

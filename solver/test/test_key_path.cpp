@@ -52,6 +52,10 @@ BOOST_AUTO_TEST_CASE(from_one_value_to_another) {
     BOOST_TEST(there.membrane.law.values()[0] == -0.25);
   }
   BOOST_TEST(KeyPath("capsule.radius", input, 0.5).text(1) == "capsule.radius = 0.5");
+  Case physical = input;
+  physical.flow.capillary_number = 0.05;
+  physical.physical.flow_rate = {1e-11, "10 nl/s"};
+  BOOST_TEST(KeyPath(flow_key, physical, 0.1).text(1) == "flow.capillary_number = 0.1 (20 nl/s)");
 }
 
 // Between positive values the eighth root is a straight line; with a negative end the value is one.

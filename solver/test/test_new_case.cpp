@@ -2,6 +2,7 @@
 #include "base/failure.hpp"
 #include "case/case_file.hpp"
 #include "case/new_case.hpp"
+#include "compare/expectations.hpp"
 #include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
 #include <fmt/format.h>
@@ -40,6 +41,8 @@ BOOST_AUTO_TEST_CASE(a_copy_is_a_case_of_its_own) {
   const CaseInput input = read_case(directory);
   BOOST_TEST(input.name == "new");
   BOOST_TEST(input.runs.at(0).physics.flow.viscosity_ratio == 5);
+  BOOST_TEST(input.runs.at(0).physics.title == "new");
+  BOOST_TEST(own_expectations(input.file, "new").size() == 2u);
 }
 
 BOOST_AUTO_TEST_CASE(a_case_of_the_project_goes_by_its_name) {
@@ -72,6 +75,6 @@ BOOST_AUTO_TEST_CASE(refused) {
   // From elsewhere the inherited file would be missing: nothing stays behind.
   project.write("far/away/deep/case.toml", "inherit = '../base.toml'\n");
   project.write("far/away/base.toml", sphere);
-  check_refused(project, "new", "far/away/deep", "cases/new/case.toml:1:11: error:");
+  check_refused(project, "new", "far/away/deep", "cases/new/case.toml:3:11: error:");
   BOOST_TEST(!std::filesystem::exists(project.path / "cases" / "new"));
 }

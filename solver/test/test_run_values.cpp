@@ -61,7 +61,8 @@ BOOST_FIXTURE_TEST_CASE(of_the_end_and_of_the_input, Project) {
 BOOST_AUTO_TEST_CASE(quantities_choose_runs) {
   Case physics;
   physics.physical.flow_rate.si = 1e-14;
-  for (const char *text : {"flow_rate=10 pl/s", "physical.flow_rate=0.01 nL/s", "flow_rate=1e-14"})
+  for (const char *text :
+       {"flow_rate=10 pl/s", "physical.flow_rate=0.01 nL/s", "flow_rate=10pl_per_s", "flow_rate=1e-14"})
     BOOST_TEST(Selector(text).selects(physics), text);
   for (const char *text : {"flow_rate=10 nl/s", "flow_rate=10 pl", "flow_rate=1e-13", "viscosity=1 Pa.s"})
     BOOST_TEST(!Selector(text).selects(physics), text);
