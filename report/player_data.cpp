@@ -132,7 +132,8 @@ Json player_series(const fs::path &run, const Json &estimates) {
       continue;
     const int decimals =
         known_decimals(estimates, quantity.column + (quantity.of_second_capsule ? "#2@x_g" : "@x_g"));
-    series[quantity.column] = {{"decimals", decimals}, {"values", rounded(found->second, decimals)}};
+    series[quantity.column] = {{"decimals", decimals},
+                               {"values", rounded(found->second, std::max(decimals, 4))}};
   }
   return series;
 }
