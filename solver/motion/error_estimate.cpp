@@ -171,8 +171,12 @@ void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fi
     return;
   for (const TransitQuantity &quantity : transit_quantities()) {
     const std::string name = std::string("transit_") + quantity.name;
-    double difference = std::abs((*transit).*quantity.value - (*other).*quantity.value);
-    if (quantity.value == &Transit::pulse_height && std::isfinite(difference))
+    double difference = std::abs(quantity.of(*transit) - quantity.of(*other));
+    if (const auto duration =
+            quantity.duration) // the errors of its ends may cancel by accident: they are added
+      difference = std::abs(((*transit).*duration).begin - ((*other).*duration).begin) +
+                   std::abs(((*transit).*duration).end - ((*other).*duration).end);
+    else if (std::isfinite(difference))
       difference = std::max(difference, difference_around_largest(pair_rows(fine, coarse, &SeriesRow::x_g),
                                                                   &SeriesRow::resistance));
     if (std::isfinite(difference))

@@ -12,19 +12,20 @@ constexpr PhysicalUnit ohm{&Scales::resistance, dimension::resistance};
 
 constexpr std::array quantities{
     TransitQuantity{"time", "from `output.transit_from` to `output.transit_to`", &Transit::time, second},
-    TransitQuantity{"pulse_height", "the largest resistance that the capsule adds", &Transit::pulse_height,
-                    ohm},
+    TransitQuantity{"pulse_height", "the largest resistance that the capsule adds", nullptr, ohm},
     TransitQuantity{"pulse_width", "time for which it exceeds half of that", &Transit::pulse_width, second},
     TransitQuantity{"pulse_rise", "time in which it rises from 10 to 90 %", &Transit::pulse_rise, second},
     TransitQuantity{"pulse_fall", "time in which it falls from 90 to 10 %", &Transit::pulse_fall, second}};
 
 using Series = std::vector<SeriesRow>;
 
+constexpr double never = std::numeric_limits<double>::quiet_NaN();
+
 // When the capsule comes to x: the cubic through two rows with the slopes 1/v_g.
 double time_at(const Series &series, double x) {
   const auto after = std::ranges::find_if(series, [x](const SeriesRow &row) { return row.x_g >= x; });
   if (after == series.end() || (after == series.begin() && after->x_g > x))
-    return Transit::none;
+    return never;
   if (after->x_g == x)
     return after->time;
   const auto before = after - 1;
@@ -58,7 +59,7 @@ double time_of_level(const Series &series, std::size_t k, double level) {
 double first_above(const Series &series, double level) {
   const auto row = std::ranges::find_if(series, [&](const SeriesRow &r) { return r.resistance >= level; });
   if (row == series.begin() || row == series.end())
-    return Transit::none;
+    return never;
   return time_of_level(series, static_cast<std::size_t>(row - series.begin()) - 1, level);
 }
 
@@ -66,7 +67,7 @@ double last_above(const Series &series, double level) {
   std::size_t k = series.size() - 1;
   while (k > 0 && series[k].resistance < level)
     --k;
-  return k + 1 == series.size() || k == 0 ? Transit::none : time_of_level(series, k, level);
+  return k + 1 == series.size() || k == 0 ? never : time_of_level(series, k, level);
 }
 
 } // namespace
@@ -79,16 +80,16 @@ std::optional<Transit> transit_of(const Case &physics, const Series &series) {
   if (series.size() < fewest_rows)
     return transit;
   constexpr double outside = 1;
-  transit.time = time_at(series, physics.output.transit_to.value_or(physics.pore.exit_x + outside)) -
-                 time_at(series, physics.output.transit_from.value_or(-outside));
+  transit.time = {time_at(series, physics.output.transit_from.value_or(-outside)),
+                  time_at(series, physics.output.transit_to.value_or(physics.pore.exit_x + outside))};
   if (!physics.output.resistance)
     return transit;
   const double height = largest_on_the_way(series, &SeriesRow::resistance, &SeriesRow::x_g)->value;
   constexpr double half = 0.5, low = 0.1, high = 0.9;
   transit.pulse_height = height;
-  transit.pulse_width = last_above(series, half * height) - first_above(series, half * height);
-  transit.pulse_rise = first_above(series, high * height) - first_above(series, low * height);
-  transit.pulse_fall = last_above(series, low * height) - last_above(series, high * height);
+  transit.pulse_width = {first_above(series, half * height), last_above(series, half * height)};
+  transit.pulse_rise = {first_above(series, low * height), first_above(series, high * height)};
+  transit.pulse_fall = {last_above(series, high * height), last_above(series, low * height)};
   return transit;
 }
 

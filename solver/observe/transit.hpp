@@ -12,10 +12,14 @@
 namespace capsule {
 
 // Not a number: not measured, or its places lie outside of the way.
+struct Duration {
+  double begin = std::numeric_limits<double>::quiet_NaN(), end = begin;
+  double length() const { return end - begin; }
+};
 struct Transit {
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  double time = none;
-  double pulse_height = none, pulse_width = none, pulse_rise = none, pulse_fall = none;
+  Duration time;
+  double pulse_height = std::numeric_limits<double>::quiet_NaN();
+  Duration pulse_width, pulse_rise, pulse_fall;
 };
 // Of a march; empty where the pore has no second mouth.
 std::optional<Transit> transit_of(const Case &physics, const std::vector<SeriesRow> &series);
@@ -24,8 +28,11 @@ std::optional<Transit> transit_of(const Case &physics, const std::vector<SeriesR
 struct TransitQuantity {
   const char *name;
   const char *meaning;
-  double Transit::*value;
+  Duration Transit::*duration; // or none, of the height
   PhysicalUnit unit;
+  double of(const Transit &transit) const {
+    return duration == nullptr ? transit.pulse_height : (transit.*duration).length();
+  }
 };
 std::span<const TransitQuantity> transit_quantities();
 

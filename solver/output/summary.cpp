@@ -97,7 +97,7 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   }
   if (const auto transit = moved ? transit_of(physics, series) : std::nullopt)
     for (const TransitQuantity &quantity : transit_quantities())
-      json["transit"][quantity.name] = finite_or_null((*transit).*quantity.value);
+      json["transit"][quantity.name] = finite_or_null(quantity.of(*transit));
   for (const auto &[quantity, value] : outcome.further)
     json[quantity] = finite_or_null(value);
   if (json.contains("transit") && json.contains("empty_resistance"))

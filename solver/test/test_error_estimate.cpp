@@ -116,6 +116,21 @@ BOOST_AUTO_TEST_CASE(pulses_whose_tops_agree_by_accident) {
   BOOST_TEST(error.at("transit_pulse_height") < 6 * 1e-3 * 0.5);
 }
 
+// One march is as late at the end of its transit as at the beginning: the errors of both count.
+BOOST_AUTO_TEST_CASE(delays_do_not_cancel_in_the_time_of_a_transit) {
+  Case physics;
+  physics.pore.shape = PoreShape::two_mouths;
+  physics.output.transit_from = 0.5;
+  physics.output.transit_to = 1.5;
+  const Series fine = pulse();
+  Series coarse = fine;
+  for (SeriesRow &row : coarse)
+    row.time += 1e-3;
+  std::map<std::string, double> error;
+  add_errors_of_transit(physics, fine, coarse, error);
+  BOOST_TEST(error.at("transit_time") == 6 * 2e-3, tolerance(1e-9));
+}
+
 // Length and diameter err by the same share: the deformation agrees, but their errors are what it is made of.
 BOOST_AUTO_TEST_CASE(errors_of_length_and_diameter_do_not_cancel_in_the_deformation) {
   const auto deformation = [](double length, double diameter) {
