@@ -34,12 +34,13 @@ bool ends_in_symbol(std::string_view text, std::size_t end) {
 
 // The end of a subscript that begins at `from`: up to four letters or digits and no more; `from` if there is none.
 std::size_t end_of_subscript(std::string_view text, std::size_t from) {
-  constexpr std::ptrdiff_t longest = 4;
-  const auto rest = text.substr(from);
-  const auto end = std::ranges::find_if_not(rest, is_ascii_word);
-  const auto length = end - rest.begin();
-  const bool is_name = length > longest || std::find(rest.begin(), end, '_') != end;
-  return is_name ? from : from + static_cast<std::size_t>(length);
+  constexpr std::size_t longest = 4;
+  std::size_t end = from;
+  while (end < text.size() && is_ascii_word(text[end]))
+    ++end;
+  const bool is_name =
+      end - from > longest || text.substr(from, end - from).find('_') != std::string_view::npos;
+  return is_name ? from : end;
 }
 
 std::size_t end_of_power(std::string_view text, std::size_t from) {
