@@ -176,7 +176,7 @@ Vector Flow::membrane_velocity(const Interaction &interaction, const Vector &rig
     return Vector(identities.with_flux(made, density) - beta_.cwiseProduct(velocity));
   };
   const Vector nothing = Vector::Zero(right.size()), nothing_at_wall = Vector::Zero(at_wall.size());
-  const Vector velocity = identities.without_flux(solve_recycled(
+  Vector velocity = identities.without_flux(solve_recycled(
       interaction.shape().position, solver_tolerance_, recycled,
       [&](const Vector &guess) { return residual(right, at_wall, guess); },
       [&](const Vector &direction) { return Vector(-residual(nothing, nothing_at_wall, direction)); },
