@@ -37,7 +37,7 @@ Vector step_of(const LeastSquares &problem, const Vector &parameters, const Matr
         free(j, j) = 1;
         right[j] = 0;
       }
-    const Vector whole = step + free.ldlt().solve(right);
+    Vector whole = step + free.ldlt().solve(right);
     const Vector inside = (parameters + whole).cwiseMax(problem.low).cwiseMin(problem.high) - parameters;
     const Flags outside = !still && inside.array() != (parameters + whole).array() - parameters.array();
     if (!outside.any())
