@@ -1,6 +1,6 @@
 data = "results/".case."/estimates.csv"
-quantities = "pressure_drop v_g time max_stretch front_stretch min_film length deformation max_axial_residual"
-titles = "Δ{/:Italic@P} {/:Italic@v}_g time largest@stretch stretch@in@front film length deformation max@|{/:Italic@v}_x@-@{/:Italic@v}_g|"
+quantities = "pressure_drop v_g time max_stretch front_stretch min_film length deformation max_axial_residual flow_rate resistance"
+titles = "Δ{/:Italic@P} {/:Italic@v}_g time largest@stretch stretch@in@front film length deformation max@|{/:Italic@v}_x@-@{/:Italic@v}_g| flow@rate resistance"
 spaced(text) = system("printf '%s' \"".text."\" | tr @ ' '")
 # Velocities and stretches as they are, of the order of one or less; all others relative to the value at the end.
 relative(name) = column(name) / (strstrt(strcol("quantity"), "max_") ? 1 : abs(column("value")))
@@ -20,14 +20,14 @@ plot x with lines linetype 1 linecolor rgb "#808080" title "error", \
   30 * x with lines linetype 1 dashtype (6, 3) linecolor rgb "#808080" title "30 times the error", \
   data using (relative("difference") * of_a_value(0)):(relative("estimate")) with points pointtype 7 pointsize 0.3 \
     linecolor rgb "#A0A0A0" title "at the end, peak", \
-  for [q=1:9] data using (relative("difference") * on_the_way(word(quantities, q))):(relative("estimate")) \
+  for [q=1:11] data using (relative("difference") * on_the_way(word(quantities, q))):(relative("estimate")) \
     with points pointtype 3 + q linecolor (q - 1) % 5 + 1 title spaced(word(titles, q))
 way(condition) = count("$k[\"quantity\"] ~ /@x_g/ && (".condition.")")
 single(condition) = count("$k[\"quantity\"] !~ /@x_g/ && (".condition.")")
 small = "$k[\"difference\"] - $k[\"floor\"] > $k[\"estimate\"]"
 large = "$k[\"holds\"] == 0 && !(".small.")"
 print "**Error estimates.** Estimated against true errors of", \
-  sprintf("%d entrances: spheres and ellipsoids, both laws, viscosity ratios from 0.2 to 10, accuracies from 1e-2 to 1e-6;", capsules), \
+  sprintf("%d capsules, into a pore or through one with two mouths: spheres and ellipsoids, both laws, viscosity ratios from 0.2 to 10, accuracies from 1e-2 to 1e-6;", capsules), \
   sprintf("the largest along the way in colours, those of values at the end and at the peak in grey. Of %d of the first", way("1")), \
   sprintf("%d estimates are too small and %d more than 30 times the error, of %d of the others %d and %d.", \
     way(small), way(large), single("1"), single(small), single(large)), \
