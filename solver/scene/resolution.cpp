@@ -26,7 +26,7 @@ Resolution choose_resolution(const Case &physics) {
   const int nodes = resolution.membrane_nodes;
   resolution.energy_points = nodes * 5 / 4 + 8;
   resolution.time_tolerance =
-      physics.time.tolerance > 0 ? physics.time.tolerance : std::min(3e-3 * physics.accuracy, 2e-6);
+      physics.time.tolerance > 0 ? physics.time.tolerance : 1e-3 * std::min(physics.accuracy, 2e-3);
 
   FlowResolution &flow = resolution.flow;
   // A panel of p Gauss points resolves about two thirds of the waves that p equidistant nodes would.

@@ -247,8 +247,8 @@ BOOST_AUTO_TEST_CASE(names_of_swept_lists) {
       "'physical.shear_modulus' = [['20 uN/m', '30 uN/m'], ['20 uN/m', '50 uN/m'], '20 uN/m']\n");
   const CaseInput moduli = read_case(physical);
   BOOST_REQUIRE(moduli.runs.size() == 3u);
-  BOOST_TEST(moduli.runs[1].name == "shear_modulus=2e-5_5e-5");
-  BOOST_TEST(moduli.runs[2].name == "shear_modulus=2e-5");
+  BOOST_TEST(moduli.runs[1].name == "shear_modulus=20uN_per_m_50uN_per_m");
+  BOOST_TEST(moduli.runs[2].name == "shear_modulus=20uN_per_m");
 }
 
 BOOST_AUTO_TEST_CASE(files_and_expressions) {
