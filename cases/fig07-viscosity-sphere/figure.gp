@@ -84,7 +84,7 @@ marks = marks.marks_title(marks, "{/:Italic x}_g")
 eval figure("fig08", 8.6, 8.6)
 eval view(2.3, 4.8, -1.3, 1.3)
 set xtics 0.5; set ytics 0.5
-set key at 3.6, -0.42 center
+set key at 3.6, 0.42 center
 plot @wall, for [i in timed] outline(profiles(run(i)), "time", 18.7) using 1:2 with lines linetype line(i + 0) title name(i), \
   for [i in timed] $one using (position(i)):(0) with points linetype line(i + 0) pointtype 2 pointsize 0.7, \
   NaN with points linetype 1 pointtype 2 pointsize 0.7 title "{/:Italic x}_g, here" @marks
