@@ -34,12 +34,9 @@ constexpr std::array<Outcome, 4> outcomes{{{"agrees", "agree"},
                                            {"undecided", "cannot be decided"}}};
 
 // Of the rows that differ tables/published.csv says in the evidence whether the paper's mesh is why.
-const char *outcome_of(const Row &row) {
-  const std::string &verdict = row.at("verdict");
-  if (verdict == "agrees")
-    return "agrees";
-  if (verdict == "not decidable")
-    return "undecided";
+std::string outcome_of(const Row &row) {
+  if (std::string style = verdict_style(row.at("verdict")); style == "agrees" || style == "undecided")
+    return style;
   return row.at("reading and evidence").find("the paper's mesh") != std::string::npos ? "mesh" : "differs";
 }
 
@@ -65,7 +62,7 @@ std::string in_greek(std::string text) {
   return text;
 }
 
-std::string cell(const char *label, const std::string &text, const char *style = "") {
+std::string cell(const char *label, const std::string &text, const std::string &style = "") {
   return fmt::format("<td data-label=\"{}\" class=\"{}\">{}</td>", label, style, prose(text));
 }
 
@@ -76,7 +73,7 @@ std::string as_sentence(std::string text) {
 }
 
 std::string two_lines(const Row &row) {
-  const char *const outcome = outcome_of(row);
+  const std::string outcome = outcome_of(row);
   const auto with_paper_numerics = capsule::to_number(row.at("with the paper's numerics"));
   return fmt::format("<tbody data-outcome=\"{}\"><tr>{}{}{}{}{}{}</tr>\n<tr><td class=\"reason\" "
                      "colspan=\"6\">{}{} <code>{}</code></td></tr></tbody>\n",
@@ -108,7 +105,7 @@ std::string claims(const std::filesystem::path &ledger_csv) {
   for (const Outcome &outcome : outcomes)
     html += filter(outcome.style,
                    static_cast<std::size_t>(std::ranges::count_if(
-                       rows, [&](const Row &row) { return std::string(outcome.style) == outcome_of(row); })),
+                       rows, [&](const Row &row) { return outcome_of(row) == outcome.style; })),
                    outcome.title);
   html += "<label>Find <input id=\"find\" type=\"search\" placeholder=\"Table 3, volume, λ "
           "10\"></label>\n</div>\n"

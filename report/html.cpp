@@ -106,19 +106,24 @@ std::string between_marks(const std::string &text, const std::string &mark, Insi
   return html + outside(text.substr(from));
 }
 
-// A cell that starts with a verdict has its colour.
 std::string table_cell(const std::string &column, const std::string &text) {
-  const std::array<std::pair<std::string, std::string>, 3> styles = {
-      {{"agrees", "agrees"}, {"differs", "differs"}, {"not decidable", "undecided"}}};
-  std::string style = column.starts_with("published") ? "published" : "";
-  for (const auto &[verdict, name] : styles)
-    if (text.starts_with(verdict))
-      style = name;
+  std::string style = verdict_style(text);
+  if (style.empty() && column.starts_with("published"))
+    style = "published";
   return style.empty() ? fmt::format("<td>{}</td>", prose(text))
                        : fmt::format("<td class=\"{}\">{}</td>", style, prose(text));
 }
 
 } // namespace
+
+std::string verdict_style(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, const char *>, 3> styles{
+      {{"agrees", "agrees"}, {"differs", "differs"}, {"not decidable", "undecided"}}};
+  for (const auto &[verdict, style] : styles)
+    if (text.starts_with(verdict))
+      return style;
+  return "";
+}
 
 std::string escaped(std::string_view text) {
   std::string html;
