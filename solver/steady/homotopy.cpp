@@ -6,6 +6,7 @@
 #include "steady/newton.hpp"
 #include "steady/relaxation.hpp"
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <optional>
 #include <utility>
@@ -20,6 +21,9 @@ constexpr double stiff_bending = 2e-2; // a shell that does not buckle
 // From this one relaxes. Softer ones buckle on the way to a shape that does not.
 constexpr double bending_to_relax = 1e-2;
 constexpr int most_to_relax_on = 70; // nodes
+// As hard to stretch as that one relaxes. Harder ones would come to rest in steps that are too short.
+constexpr std::array area_keys{"membrane.dilatation", "membrane.area_modulus"};
+constexpr double area_modulus_to_relax = 100;
 
 // On the finest mesh a stretch above this that has grown since the fold counts as running away, too.
 constexpr double large_stretch = 2;
@@ -222,12 +226,18 @@ SteadyState without_neighbours(const Case &input, const Control &control) {
   for (const double part : {1.0, 0.5, 0.25, 0.125}) { // of the flow, in which the capsule may come to rest
     Case weaker = input;
     weaker.flow.capillary_number *= part;
+    for (const char *key : area_keys)
+      weaker = with_number(weaker, key, std::min(area_modulus_to_relax, number(key, input)));
+    bool only_flow_is_left = false;
     try {
       Homotopy homotopy(input, weaker, by_relaxation(weaker, control), control);
+      for (const char *key : area_keys)
+        homotopy.vary(key, number(key, input));
+      only_flow_is_left = true;
       homotopy.vary(flow_key, flow);
       return homotopy.state();
     } catch (const NumericsFailure &failure) { // it may run away, or buckle on the way: other branches tell
-      if (failure.kind == failure_kind::fold)
+      if (only_flow_is_left && failure.kind == failure_kind::fold)
         throw no_steady_state(failure);
       last = failure;
     }

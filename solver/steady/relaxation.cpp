@@ -63,9 +63,8 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
     step *= std::clamp(intended / error, 0.25, most_growth);
     most_growth = error < too_much ? std::min(2 * most_growth, 10.0) : 1.0;
   }
-  throw NumericsFailure(failure_kind::unresolved,
-                        "the profile to begin with does not come to rest in the tube",
-                        "leave --from away, or begin with a profile of a later x_g");
+  throw NumericsFailure(failure_kind::unresolved, "the shape does not come to rest in the tube",
+                        "begin with a profile of a march at a later x_g (--from)");
 }
 
 } // namespace capsule

@@ -314,6 +314,25 @@ BOOST_AUTO_TEST_CASE(begins_with_a_profile_from_far_away) {
   BOOST_TEST(nowhere.message.find("does not come to rest") != std::string::npos);
 }
 
+// Cells that keep their area ever better as C grows: what is left falls as 1/C, and the state comes to that of constant area
+// as fast.
+BOOST_AUTO_TEST_CASE(hard_skins_come_to_constant_area) {
+  Case physics = tube_case(skalak, 0.8, 0.09, 1e-2);
+  physics.capsule.shape = CapsuleShape::biconcave;
+  physics.mesh.membrane = 0;
+  physics.accuracy = 1e-4;
+  const auto with = [&](double dilatation) {
+    physics.membrane.law = {skalak, {dilatation}};
+    return steady_row(physics);
+  };
+  const SeriesRow soft = with(100), hard = with(1e3), hardest = with(1e4);
+  BOOST_TEST((soft.max_area_stretch - 1) / (hardest.max_area_stretch - 1) == 100,
+             boost::test_tools::tolerance(0.05));
+  BOOST_TEST((hard.pressure_drop - soft.pressure_drop) / (hardest.pressure_drop - hard.pressure_drop) == 10,
+             boost::test_tools::tolerance(0.05));
+  BOOST_TEST(hardest.max_area_stretch < 1 + 1e-3);
+}
+
 // On a branch that turns and comes back, several times, before the shell is as thin as asked for. Reference: a march to
 // x_g = 30 of a tube that ends at 38 (validation/steady-march has it with seven digits).
 BOOST_AUTO_TEST_CASE(behind_turns_that_are_no_end) {
