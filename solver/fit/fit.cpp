@@ -234,6 +234,7 @@ void describe(LawFit &fit, FitResult &result) {
     if (!names[static_cast<std::size_t>(j)].starts_with("place"))
       told.push_back(j);
   const std::vector<FittedStates::Anchor> anchors = states.anchors();
+  states.keep_anchors();
   for (const Eigen::Index j : told) {
     FittedValue value{names[static_cast<std::size_t>(j)], minimum.parameters[j], std::sqrt(errors(j, j))};
     const Reach low = reach(problem, minimum, errors, j, -1, growth_90);
@@ -244,10 +245,12 @@ void describe(LawFit &fit, FitResult &result) {
     value.high = high.value;
     value.low_is_open = low.open;
     value.high_is_open = high.open;
-    if ((low.open && !low.at_bound) || (high.open && !high.at_bound))
-      result.warnings.push_back(
-          fmt::format("{}: beyond {} no steady state is found; the interval {} is open there", value.name,
-                      low.open ? value.low : value.high, interval_text(low, high)));
+    for (const Reach &end : {low, high})
+      if (end.open && !end.at_bound)
+        result.warnings.push_back(fmt::format(
+            "{}: {} {:.4g} {}; the interval {} is open there", value.name, end.at_end ? "beyond" : "up to",
+            end.value, end.at_end ? "no steady state is found" : "the fit gets hardly worse",
+            interval_text(low, high)));
     result.values.push_back(value);
   }
   const Matrix part = errors(told, told);

@@ -88,6 +88,7 @@ Eigen::Index FittedStates::points() const {
 
 Vector FittedStates::begin_with(const SteadyState &state) {
   const auto count = std::ssize(keys_);
+  kept_.clear();
   Vector parameters = Vector::Zero(size_), values(count);
   for (Eigen::Index j = 0; j < count; ++j)
     values[j] = number(keys_[static_cast<std::size_t>(j)], state.system->input());
@@ -117,6 +118,7 @@ void FittedStates::change_mesh(int nodes) {
                      dense_meridian(state.system->membrane().basis)});
   }
   anchors_ = std::move(finer);
+  kept_.clear();
 }
 
 double FittedStates::unresolved() const {
@@ -129,22 +131,43 @@ double FittedStates::unresolved() const {
   return largest;
 }
 
+Case FittedStates::case_with(const Vector &values) const {
+  Case input = input_;
+  for (std::size_t j = 0; j < keys_.size(); ++j)
+    input = with_number(std::move(input), keys_[j], values[static_cast<Eigen::Index>(j)]);
+  return input;
+}
+
+// A system has the parameters of the last state that was found with it.
+void FittedStates::return_to(const std::vector<Anchor> &anchors) {
+  anchors_ = anchors;
+  for (const Anchor &anchor : anchors_)
+    anchor.state.system->set_parameters(case_with(anchor.values));
+}
+
 Residuals FittedStates::evaluate(const Vector &parameters) {
+  try {
+    return evaluate_from(anchors_, parameters);
+  } catch (const NumericsFailure &) {
+    if (kept_.empty())
+      throw;
+    return evaluate_from(kept_, parameters);
+  }
+}
+
+Residuals FittedStates::evaluate_from(const std::vector<Anchor> &anchors, const Vector &parameters) {
   const auto count = std::ssize(keys_);
   std::vector<Anchor> found;
   Residuals result{Vector::Zero(points() + velocity_rows_), Matrix::Zero(points() + velocity_rows_, size_)};
   Eigen::Index row = 0, velocity_row = points();
   for (std::size_t k = 0; k < contours_.size(); ++k) {
-    const Anchor &anchor = anchors_[k];
+    const Anchor &anchor = anchors[k];
     SteadySystem &system = *anchor.state.system;
     const Eigen::Index n = system.nodes();
-    Case here = input_;
     Vector values(count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const auto key = static_cast<std::size_t>(j);
-      values[j] = value(parameters, k, key);
-      here = with_number(std::move(here), keys_[key], values[j]);
-    }
+    for (Eigen::Index j = 0; j < count; ++j)
+      values[j] = value(parameters, k, static_cast<std::size_t>(j));
+    const Case here = case_with(values);
     const Vector expected = anchor.state.unknowns + anchor.sensitivities * (values - anchor.values);
     const Case before = system.input();
     system.set_parameters(here);

@@ -37,7 +37,9 @@ public:
     DenseMeridian dense;
   };
   const std::vector<Anchor> &anchors() const { return anchors_; }
-  void return_to(std::vector<Anchor> anchors) { anchors_ = std::move(anchors); }
+  void return_to(const std::vector<Anchor> &anchors);
+  // From now on also from these, where Newton's method fails from the last ones.
+  void keep_anchors() { kept_ = anchors_; }
 
   Eigen::Index points() const; // rows of residuals that are distances
   bool has_velocities() const { return velocity_rows_ > 0; }
@@ -63,6 +65,8 @@ public:
   std::vector<Foot> feet(const Vector &parameters, std::size_t contour) const;
 
 private:
+  Residuals evaluate_from(const std::vector<Anchor> &anchors, const Vector &parameters);
+  Case case_with(const Vector &values) const; // of the keys
   Eigen::Index parameter(std::size_t contour, std::size_t key) const;
   double factor(std::size_t contour, std::size_t key) const;
   std::optional<double> flow_rate(std::size_t contour) const;
@@ -72,7 +76,7 @@ private:
   Case input_;
   std::vector<std::string> keys_;
   std::vector<Contour> contours_;
-  std::vector<Anchor> anchors_;
+  std::vector<Anchor> anchors_, kept_;
   double noise_ = 0.005;
   std::size_t flow_key_;        // index of the capillary number among the keys; their number if it is known
   bool flows_known_;            // so that capillary numbers are in their ratio

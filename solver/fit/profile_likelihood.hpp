@@ -7,8 +7,9 @@ namespace capsule {
 
 struct Reach {
   double value = 0;
-  bool open = false; // a bound, or the last value at which there was a sum at all
-  bool at_bound = false;
+  bool open = false;     // the sum has not grown by so much up to here
+  bool at_bound = false; // because the way ends at a bound,
+  bool at_end = false;   // or because no sum is found beyond
 };
 // `sense`: 1 upwards, -1 downwards. To within a hundredth of the way.
 Reach reach(const LeastSquares &problem, const Minimum &minimum, const Matrix &covariance,

@@ -99,6 +99,9 @@ BOOST_AUTO_TEST_CASE(the_capsule_of_a_march_is_found) {
   BOOST_TEST(std::abs(value_of(fit, "capsule.radius") - 0.85) < 1e-5);
   BOOST_TEST(std::abs(value_of(fit, flow_key) - 0.06) < 1e-5 * 0.06 * 10);
   BOOST_TEST(std::abs(value_of(fit, "capsule.inflation") - 0.02) < 1e-5);
+  // The state that is written is that of these values, whatever was tried for the intervals.
+  for (const char *key : {"capsule.radius", flow_key, "capsule.inflation"})
+    BOOST_TEST(number(key, fit.contours[0].state.system->input()) == value_of(fit, key));
 }
 
 // In physical units: with the flow rate the modulus follows from eps, with the velocity from eps V.

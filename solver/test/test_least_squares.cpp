@@ -100,4 +100,33 @@ BOOST_AUTO_TEST_CASE(reaches_of_a_bent_problem) {
   }
 }
 
+// The sum a^2 (1 - exp(-p))^2 grows to a^2 and no further, or up to where it ends.
+BOOST_AUTO_TEST_CASE(reaches_without_an_end) {
+  const auto growing = [](double most, double last) {
+    LeastSquares problem = problem_of([=](const Vector &p) {
+      if (p[0] > last)
+        throw NumericsFailure("fold", "no value", "");
+      Residuals at{Vector(2), Matrix::Zero(2, 2)};
+      at.values << most * (1 - std::exp(-p[0])), p[1];
+      at.slopes(0, 0) = most * std::exp(-p[0]);
+      at.slopes(1, 1) = 1;
+      return at;
+    });
+    problem.high[0] = 1e6;
+    return problem;
+  };
+  const auto upwards = [](const LeastSquares &problem) {
+    const Minimum found = minimise(problem, Vector::Zero(2));
+    return reach(problem, found, covariance(problem, found.at), 0, 1, 2.706);
+  };
+  const Reach flat = upwards(growing(1.6, 1e9));
+  BOOST_TEST((flat.open && !flat.at_bound && !flat.at_end));
+  const Reach ended = upwards(growing(2, 1.2));
+  BOOST_TEST((ended.open && ended.at_end));
+  BOOST_TEST(std::abs(ended.value - 1.2) < 0.012);
+  const Reach late = upwards(growing(1.7, 1e9)); // far beyond where the parabola ends, at 0.97
+  BOOST_TEST(!late.open);
+  BOOST_TEST(std::abs(std::pow(1.7 * (1 - std::exp(-late.value)), 2) / 2.706 - 1) < 0.02);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
