@@ -83,7 +83,7 @@ public:
   bool advance() {
     branch_->advance();
     if (branch_->turned() && !branch_->tangent_has_turned() &&
-        refine_mesh(branch_->point_before(), branch_->tangent_before()))
+        refine_mesh(branch_->point_before(), branch_->tangent_before(), branch_->trend_before()))
       return false;
     if (branch_->turned())
       outcome().folds.push_back(record(branch_->fold(), true));
@@ -111,7 +111,7 @@ public:
                             fmt::format("{} points have led to {} only", most_points, path_.text(part_)),
                             "a nearer --to");
     if (branch_->wants_a_finer_mesh())
-      refine_mesh(branch_->point(), branch_->tangent());
+      refine_mesh(branch_->point(), branch_->tangent(), branch_->trend());
     return false;
   }
 
@@ -126,14 +126,14 @@ private:
     return record_.add(state_, point.parameter, profile);
   }
   // Goes on from a point on a finer mesh; false if there is none, or the branch is not found on it.
-  bool refine_mesh(const BranchPoint &point, const Vector &tangent) {
+  bool refine_mesh(const BranchPoint &point, const Vector &tangent, Branch::Trend trend) {
     const int more = finer_mesh(nodes());
     if (!may_refine_ || more > most_nodes_of_a_branch)
       return false;
     const SteadyState guess = moved_to_mesh(path_.at(point.parameter), more, {state_.system, point.unknowns});
     try {
       branch_ = std::make_unique<Branch>(*guess.system, path_, BranchPoint{guess.unknowns, point.parameter},
-                                         moved_to(*guess.system, *state_.system, tangent), steps);
+                                         moved_to(*guess.system, *state_.system, tangent), steps, trend);
       state_ = {guess.system, branch_->point().unknowns};
     } catch (const NumericsFailure &) {
       may_refine_ = false;

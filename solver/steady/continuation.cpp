@@ -12,7 +12,6 @@ namespace {
 
 constexpr double smallest_step = 1e-6;
 constexpr double largest_slack = 5e-7;
-constexpr double poorly_resolved = 1e-6; // unresolved_part of node_density.hpp
 
 // Factor from one step to the next. The first guess bends with the branch, so its error, and with it the contraction of
 // Newton's method, is of third order in the step.
@@ -23,10 +22,17 @@ double step_factor(double contraction) {
 
 } // namespace
 
+bool poorly_resolved(const SteadySystem &system, const Vector &unknowns) {
+  constexpr double largest_unresolved_part = 1e-6;
+  return std::abs(unknowns[unknowns.size() - 1]) > largest_slack ||
+         unresolved_part(system.membrane().basis, unknowns.head(2 * system.nodes())) >
+             largest_unresolved_part;
+}
+
 Branch::Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vector &direction,
-               const Steps &steps)
+               const Steps &steps, Trend trend)
     : system_(&system), path_(std::move(path)), point_(std::move(start)), steps_(steps), step_(steps.first),
-      trend_(direction[direction.size() - 1] < 0 ? -1 : 1) {
+      trend_(trend), trend_before_(trend) {
   const Corrected first = correct(point_, direction / std::sqrt(weighted(direction, direction)), 0,
                                   position_tolerance, Vector::Zero(direction.size()));
   point_ = first.point;
@@ -141,7 +147,7 @@ void Branch::advance() {
         point_ = next.point;
         tangent_ = next.tangent;
         trend_before_ = trend_;
-        trend_ = point_.parameter < before_.parameter ? -1 : 1;
+        trend_ = point_.parameter < before_.parameter ? Trend::falls : Trend::grows;
         step_ = std::min(step_factor(next.contraction) * step_, steps_.largest);
         return;
       }
@@ -168,18 +174,12 @@ double Branch::plain_step() const {
                             tangent_[tangent_.size() - 1]);
 }
 
-bool Branch::wants_a_finer_mesh() const {
-  const Vector &u = point_.unknowns;
-  return std::abs(u[u.size() - 1]) > largest_slack ||
-         unresolved_part(system_->membrane().basis, u.head(2 * system_->nodes())) > poorly_resolved;
-}
-
 bool Branch::turned() const {
   return points_ > 1 && trend_ != trend_before_;
 }
 
 bool Branch::tangent_has_turned() const {
-  return tangent_[tangent_.size() - 1] * trend_ > 0;
+  return (tangent_[tangent_.size() - 1] > 0) == (trend_ == Trend::grows);
 }
 
 double Branch::along_tangent_before(const BranchPoint &at) const {
@@ -200,10 +200,10 @@ Vector Branch::bend_towards(const BranchPoint &end) const {
 // change sign because the mesh resolves a tip of the shape poorly, a difference of the parameter itself.
 BranchPoint Branch::fold() const {
   const double last = along_tangent_before(point_);
-  const double first = points_ > 2 ? along_tangent_before(oldest_) : -last;
+  double first = points_ > 2 ? along_tangent_before(oldest_) : -last / 8;
   const double h = 0.03 * std::min(-first, last);
-  const Vector bend_before = points_ > 2 ? bend_towards(oldest_) : Vector::Zero(tangent_before_.size());
   const Vector bend_after = bend_towards(point_);
+  const Vector bend_before = points_ > 2 ? bend_towards(oldest_) : bend_after;
   constexpr double tolerance = 1e-11; // the slope along the arc is as exact as the point
   const auto at = [&](double step) {
     return correct(before_, tangent_before_, step, tolerance, step < 0 ? bend_before : bend_after);
@@ -221,8 +221,13 @@ BranchPoint Branch::fold() const {
                                           boost::math::tools::eps_tolerance<double>(30), evaluations);
     return at((found.first + found.second) / 2).point;
   };
-  const double tangent_first = by_tangents(first + h);
+  double tangent_first = by_tangents(first + h);
   const double tangent_last = by_tangents(last - h);
+  // Before the start of the branch there is no point that the fold cannot lie beyond.
+  while (points_ == 2 && tangent_first * tangent_last > 0 && -first < 2 * last) {
+    first *= 1.5;
+    tangent_first = by_tangents(first + h);
+  }
   return tangent_first * tangent_last < 0
              ? solve(by_tangents, tangent_first, tangent_last)
              : solve(by_differences, by_differences(first + h), by_differences(last - h));

@@ -13,15 +13,23 @@ struct BranchPoint {
   double parameter = 0;
 };
 
+// Whether a state is poorly resolved: then the exact derivative differs from that of the discrete equations, and Newton's
+// method soon fails.
+bool poorly_resolved(const SteadySystem &system, const Vector &unknowns);
+
 class Branch {
 public:
   // Lengths along the branch; and how far, in displacement, the next correction of a point would move it.
   struct Steps {
     double first, largest, tolerance;
   };
+  // Whether the parameter grows along the branch.
+  enum class Trend { falls, grows };
   // `start` is near to a steady state. The branch begins with the state next to it in the plane across `direction`
-  // (changes of the unknowns, then of the parameter), and goes on to that side.
-  Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vector &direction, const Steps &steps);
+  // (changes of the unknowns, then of the parameter), and goes on to that side. `trend` is that of the way to the start:
+  // a fold may lie between.
+  Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vector &direction, const Steps &steps,
+         Trend trend = Trend::grows);
   // The direction in which the parameter alone grows.
   static Vector upwards(const SteadySystem &system);
 
@@ -30,15 +38,16 @@ public:
   double plain_step() const;
   // The direction in which the branch goes on, like `direction` above.
   const Vector &tangent() const { return tangent_; }
+  // Of the last step.
+  Trend trend() const { return trend_; }
   // The same for the point before.
   const BranchPoint &point_before() const { return before_; }
   const Vector &tangent_before() const { return tangent_before_; }
+  Trend trend_before() const { return trend_before_; }
 
   // To the next point. Throws NumericsFailure when the smallest step fails; the branch stays where it was.
   void advance();
-  // Whether the last point is poorly resolved: then the exact derivative differs from that of the discrete equations,
-  // and Newton's method soon fails.
-  bool wants_a_finer_mesh() const;
+  bool wants_a_finer_mesh() const { return poorly_resolved(*system_, point_.unknowns); }
   // The steady state between the last two points at a parameter between theirs.
   BranchPoint at_parameter(double parameter) const;
   // Whether the parameter has turned back in the last step or shortly before it.
@@ -73,7 +82,7 @@ private:
   Steps steps_;
   double step_;
   int points_ = 1;
-  int trend_, trend_before_ = 0;
+  Trend trend_, trend_before_;
   double weight_ = 1; // of displacements
 };
 

@@ -83,12 +83,14 @@ private:
     const Branch::Steps steps{.first = place_.first_step, .largest = 0.7, .tolerance = 1e-7};
     constexpr int most_steps = 200;
     constexpr double first_part = -1; // as far as a branch that has turned is followed
-    Branch branch(*state_.system, path, {state_.unknowns, place_.part}, place_.direction, steps);
+    Branch branch(*state_.system, path, {state_.unknowns, place_.part}, place_.direction, steps,
+                  place_.trend);
     for (int step = 0; step < most_steps; ++step) {
       throw_if_interrupted(control_);
       state_.unknowns = branch.point().unknowns;
       place_.part = branch.point().parameter;
       place_.direction = branch.tangent();
+      place_.trend = branch.trend();
       place_.first_step = branch.plain_step();
       try {
         branch.advance();
@@ -141,6 +143,7 @@ private:
   struct Place {
     double part = 0;
     Vector direction; // in which it goes on
+    Branch::Trend trend = Branch::Trend::grows;
     double first_step = 0.2;
     std::string turned_at; // the farthest fold, while the branch is behind it
     double farthest = 0, stretch_at_fold = 0;

@@ -1,6 +1,9 @@
 // Branches of steady states: both ends, the fold between, and what cannot be asked for.
 #include "base/failure.hpp"
+#include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include "steady/branch.hpp"
+#include "steady/continuation.hpp"
 #include "steady/steady_state.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -58,6 +61,24 @@ BOOST_AUTO_TEST_CASE(fold_of_a_neo_hookean_capsule) {
       check_near_side(neo_hookean_case(64), fold);
   }
   BOOST_TEST(std::abs(found[0] - found[1]) < 1e-6 * found[0]);
+}
+
+// A branch that is begun again between a fold and the next point, as on another mesh, finds the fold.
+BOOST_AUTO_TEST_CASE(a_fold_just_before_the_start) {
+  Case physics = neo_hookean_case(48);
+  physics.membrane.bending_ratio = 2e-2;
+  physics.flow.capillary_number = 0.25;
+  const Branch::Steps steps{.first = 0.05, .largest = 0.1, .tolerance = 1e-9};
+  const KeyPath path(flow_key, physics, 0.3);
+  const SteadyState state = find_steady(physics, {}, {});
+  Branch branch(*state.system, path, {state.unknowns, 0}, Branch::upwards(*state.system), steps);
+  while (!branch.turned())
+    branch.advance();
+  BOOST_TEST(branch.tangent_has_turned());
+  Branch again(*state.system, path, branch.point(), branch.tangent(), steps, Branch::Trend::grows);
+  again.advance();
+  BOOST_TEST(again.turned());
+  BOOST_TEST(std::abs(again.fold().parameter - branch.fold().parameter) < 1e-9);
 }
 
 // As a capsule stretches its pressure drop falls: under constant pressure the flow grows, and the same states turn earlier.
