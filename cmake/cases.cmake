@@ -4,6 +4,7 @@
 #   target table-<id>   computes what is missing and writes tables/<id>.csv and .md; all of them: tables
 #   target figure-<id>  the same, and draws figures/<id>/* and the paper's tables, tables/table<n>.csv and .md; all of
 #                       them, and figures/gallery.md: figures
+# An outline cases/<id>/profile.csv has a target figure-<id>, which fits it and draws that.
 # Stored results cases/<id>/<name>/<run>/ of another file cases/<id>/<name>.toml have a test case-<id>-<name> and a
 # target table-<id>-<name>. What is computed lies in results/ for all of them.
 # The target ledger writes tables/ledger.csv and .md, the verdict on each claim of the paper; it is part of figures.
@@ -15,7 +16,7 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS tables/published.
 include(cmake/names.cmake)
 
 add_custom_target(tables)
-add_custom_target(figures COMMAND sh cmake/gallery.sh ${CASES} ${STORED_NAMES}
+add_custom_target(figures COMMAND sh cmake/gallery.sh ${CASES} ${FITS} ${STORED_NAMES}
   COMMENT "Writing figures/gallery.md" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} VERBATIM)
 add_custom_target(ledger
   COMMAND sh cmake/accept.sh 1 $<TARGET_FILE:capsule> ledger --table tables/ledger
@@ -66,4 +67,11 @@ foreach(id IN LISTS CASES)
 endforeach()
 foreach(directory name IN ZIP_LISTS STORED STORED_NAMES)
   add_comparison(${name} cases/${directory}.toml --out cases/${directory})
+endforeach()
+foreach(id IN LISTS FITS)
+  add_custom_target(figure-${id}
+    COMMAND capsule fit cases/${id}/${id}.toml --profile cases/${id}/profile.csv
+    COMMAND ${DRAW} cases/${id} figures
+    COMMENT "Fit ${id}" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} VERBATIM)
+  add_dependencies(figures figure-${id})
 endforeach()

@@ -1,5 +1,6 @@
 # Which directories take part by being there, and what they are called:
 #   CASES                  <id> of cases/<id>/case.toml
+#   FITS                   <id> of cases/<id>/profile.csv, an outline that `capsule fit cases/<id>/<id>.toml` takes
 #   STORED, STORED_NAMES   <id>/<name> and <id>-<name> of results that are stored with a case, cases/<id>/<name>/<run>/
 #   STUDIES                <id> of validation/<id>/study.cpp and validation/<id>/case.toml
 # A directory whose name cannot be used is left out with a warning, and nothing else. What comes or goes configures again.
@@ -49,6 +50,10 @@ endforeach()
 names_in(names cases case.toml)
 foreach(id IN LISTS names)
   take_name(${id} cases/${id} CASES ${id})
+endforeach()
+names_in(names cases profile.csv)
+foreach(id IN LISTS names)
+  take_name(${id} cases/${id} FITS ${id})
 endforeach()
 foreach(id IN LISTS CASES)
   names_in(names cases/${id} */summary.json)

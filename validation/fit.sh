@@ -11,7 +11,7 @@ within() {
 }
 # The capsule of profile.csv: 44 um, 6 mN/m, inflated by 2.5 %, neo-Hookean; 0.5 um a pixel with a noise of half of one.
 cp "$project"/cases/fit-example/* .
-ends 0 fit fit.toml --profile profile.csv --out fit
+ends 0 fit fit-example.toml --profile profile.csv --out fit
 grep -q '"law": "neo-hookean"' fit/fit.json || fail 'the law is another'
 within physical.capsule_radius 43.95e-6 44.05e-6
 within physical.shear_modulus 5.8e-3 6.2e-3
@@ -21,12 +21,12 @@ for file in fit.json fit.csv profiles.csv points.csv; do [ -s "fit/$file" ] || f
 # Whatever the order, the half and the origin of its points are.
 sed -n '1,3p' profile.csv >half.csv
 sed '1,3d' profile.csv | awk -F, '$2 < 0 { printf "%.2f,%s\n", $1 - 400, $2 }' | sort >>half.csv
-ends 0 fit fit.toml --profile half.csv --out fit --set 'fit.laws=["neo-hookean"]'
+ends 0 fit fit-example.toml --profile half.csv --out fit --set 'fit.laws=["neo-hookean"]'
 within physical.capsule_radius 43.9e-6 44.1e-6
 
 # Pixels are half a micrometre.
 sed 's/\[um\]/[px]/g' profile.csv | awk -F, 'NR > 3 { $0 = sprintf("%.2f,%.2f", $1 * 2, $2 * 2) } { print }' >pixels.csv
-ends 0 fit fit.toml --profile pixels.csv --out fit --set 'fit.laws=["neo-hookean"]' --set 'fit.pixel="0.5 um"'
+ends 0 fit fit-example.toml --profile pixels.csv --out fit --set 'fit.laws=["neo-hookean"]' --set 'fit.pixel="0.5 um"'
 within physical.capsule_radius 43.95e-6 44.05e-6
 
 # bad PATTERN [ARGUMENT...]: bad.csv, from standard input, is refused
@@ -35,7 +35,7 @@ bad() {
   shift
   cat >bad.csv
   rm -rf bad
-  ends 2 fit fit.toml --profile bad.csv --out bad "$@"
+  ends 2 fit fit-example.toml --profile bad.csv --out bad "$@"
   grep -q "^bad.csv:$pattern" log || fail "a bad profile: not '$pattern'"
   [ ! -e bad/fit.json ] || fail "a fit of a bad profile: $pattern"
 }
@@ -56,27 +56,27 @@ sed 's/,r/,radius/' profile.csv | bad "3:1: error: there is no column 'r'"
 awk -F, 'NR == 3 { print "x,r" } NR > 3 && $2 > 0 { printf "%.4f,%.4f\n", $2 / 60, ($1 - 213.4) / 60 }' profile.csv |
   bad '1:1: error: no capsule: no point near the axis behind'
 : | bad '1:1: error: no points in it'
-ends 4 fit fit.toml --profile nothing.csv --out bad
-ends 2 fit fit.toml --profile . --set 'fit.unknowns=["capsule.radios"]'
+ends 4 fit fit-example.toml --profile nothing.csv --out bad
+ends 2 fit fit-example.toml --profile . --set 'fit.unknowns=["capsule.radios"]'
 grep -q "1:14: error: 'capsule.radios' is nothing that a fit can find" log || fail 'a misspelt unknown'
-ends 2 fit fit.toml --profile profile.csv --set 'fit.unknowns=["capsule.radius","membrane.dilatation"]' \
+ends 2 fit fit-example.toml --profile profile.csv --set 'fit.unknowns=["capsule.radius","membrane.dilatation"]' \
   --set 'fit.laws=["neo-hookean"]'
 grep -q "means nothing to the laws" log || fail 'an unknown of another law'
-ends 2 fit fit.toml --profile profile.csv --set 'physical.shear_modulus="6 mN/m"'
+ends 2 fit fit-example.toml --profile profile.csv --set 'physical.shear_modulus="6 mN/m"'
 grep -q "physical.shear_modulus means nothing to a fit" log || fail 'a modulus that is to be found'
 
 # What is not of a fit is not overwritten.
 mkdir own && echo mine >own/profiles.csv
-ends 4 fit fit.toml --profile profile.csv --out own
+ends 4 fit fit-example.toml --profile profile.csv --out own
 [ "$(cat own/profiles.csv)" = mine ] || fail 'a file that is not of a fit is overwritten'
 
 # A film, whose second half is finished by the same command; a bad image stops no other.
 mkdir film
 for k in $(seq -w 30); do sed "1s/^/# image $k\n/" profile.csv >film/image-$k.csv; done
-"$capsule" fit fit.toml --profile film --out films --jobs 1 --time-limit 1 --set 'fit.laws=["neo-hookean"]' >log 2>&1 || code=$?
+"$capsule" fit fit-example.toml --profile film --out films --jobs 1 --time-limit 1 --set 'fit.laws=["neo-hookean"]' >log 2>&1 || code=$?
 [ "$code" -eq 130 ] || [ "$code" -eq 0 ] || fail 'an interrupted film'
 echo 'x,r' >film/image-bad.csv
-ends 2 fit fit.toml --profile film --out films --jobs 2 --set 'fit.laws=["neo-hookean"]'
+ends 2 fit fit-example.toml --profile film --out films --jobs 2 --set 'fit.laws=["neo-hookean"]'
 grep -q '^film/image-bad.csv:1:1: error: 0 points are too few' log || fail 'a bad image is not named'
 [ "$(wc -l <films/fit.csv)" -eq 31 ] || fail 'a film without a row for each image'
 grep -q '^physical.shear_modulus,30,' films/population.csv || fail 'no population'
