@@ -1,11 +1,19 @@
 #include "motion/motion.hpp"
 #include "case/case.hpp"
+#include "flow/wall.hpp"
+#include "geometry/pore.hpp"
 #include "motion/error_estimate.hpp"
 #include "motion/march.hpp"
 #include "scene/resolution.hpp"
 
 namespace capsule {
 namespace {
+
+// Points of the wall. Panels are whole: with fewer points asked for there may be as many.
+Eigen::Index wall_size(const Case &input) {
+  const auto pore = make_pore(input.pore);
+  return pore ? wall_panels(*pore, choose_resolution(input).flow).points.size() : 0;
+}
 
 // The same motion, a little coarser: each kind of error is then about three times as large. Much coarser ones tell
 // less: where convergence is exponential their errors are 10 to 100 times as large, and near an instability they go
@@ -16,7 +24,10 @@ Case companion(const Case &input) {
     follower = companion(follower);
   const Resolution chosen = choose_resolution(input);
   coarse.mesh.membrane = 9 * chosen.membrane_nodes / 10;
-  coarse.mesh.wall = 9 * chosen.wall_points / 10;
+  coarse.mesh.wall = chosen.wall_points;
+  do
+    coarse.mesh.wall = 9 * coarse.mesh.wall / 10;
+  while (wall_size(coarse) == wall_size(input) && 2 * coarse.mesh.wall > chosen.wall_points);
   coarse.time.step = input.time.step / 0.9; // as stable on its nodes as the fine one's
   coarse.time.tolerance = 5 * chosen.time_tolerance;
   coarse.output.profiles_at_x_g.clear();
