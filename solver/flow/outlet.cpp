@@ -12,9 +12,9 @@ Outlet plane_outlet(double x) {
   Outlet outlet;
   const Curve &curve = outlet.curve = disc_at(x, 1);
   const Vector none = Vector::Zero(panel_points);
-  outlet.base_traction.resize(2 * panel_points);
+  outlet.base_traction.resize(2 * none.size());
   outlet.base_traction << none, curve.r.unaryExpr(&poiseuille_shear);
-  outlet.base_velocity.resize(2 * panel_points);
+  outlet.base_velocity.resize(2 * none.size());
   outlet.base_velocity << curve.r.unaryExpr(&poiseuille_velocity), none;
   outlet.row_points = {Vector::Constant(1, x), Vector::Zero(1)};
   outlet.row_weights = Vector::Unit(2, 0);

@@ -21,9 +21,9 @@ double fraction_done(const Case &physics, double time, double x_g) {
   const UntilSpec &until = physics.until;
   if (until.by_place()) { // the last capsule arrives later by about the way between the two
     const double behind = capsules_of(physics).back()->capsule.start_x - physics.capsule.start_x;
-    const double end =
-        std::min(until.x_g.value_or(std::numeric_limits<double>::infinity()),
-                 until.last_x_g ? *until.last_x_g - behind : std::numeric_limits<double>::infinity());
+    double end = until.x_g.value_or(std::numeric_limits<double>::infinity());
+    if (until.last_x_g)
+      end = std::min(end, *until.last_x_g - behind);
     fraction = std::max(fraction, (x_g - physics.capsule.start_x) / (end - physics.capsule.start_x));
   }
   return std::clamp(fraction, 0.0, 1.0);

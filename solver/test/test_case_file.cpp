@@ -306,20 +306,21 @@ BOOST_AUTO_TEST_CASE(numbers_in_other_notations) {
                                                                                      {"5%", ""}}) {
     const std::string hint =
         meant.empty() ? "a number is written as 0.05, 1000 or 1e-3\n" : "write " + meant + "\n";
-    const std::string in_file =
-        message_of(directory.write("case.toml", before + "flow.capillary_number = " + typed + " # x\n"));
+    const std::string in_file = message_of(
+        directory.write("case.toml", before + fmt::format("flow.capillary_number = {} # x\n", typed)));
     BOOST_TEST_CONTEXT(typed) {
       check_contains(in_file, hint);
       if (!meant.empty())
-        check_contains(in_file, "case.toml:3:25: error: '" + typed + "' is not a number");
+        check_contains(in_file, fmt::format("case.toml:3:25: error: '{}' is not a number", typed));
       const auto file = directory.write("good.toml", good);
       check_contains(message_of(file, {"flow.capillary_number=" + typed}), hint);
       check_contains(message_of(file, {"flow.capillary_number=\"" + typed + "\""}), hint);
       check_contains(message_of(file, {"mesh.wall=\"" + typed + "\""}), hint);
       if (!meant.empty())
-        check_contains(message_of(directory.write(
-                           "list.toml", before + "sweep.\"flow.capillary_number\" = [0.1, " + typed + "]\n")),
-                       "list.toml:3:39: error: '" + typed + "' is not a number; " + hint);
+        check_contains(
+            message_of(directory.write(
+                "list.toml", before + fmt::format("sweep.\"flow.capillary_number\" = [0.1, {}]\n", typed))),
+            fmt::format("list.toml:3:39: error: '{}' is not a number; {}", typed, hint));
     }
   }
   const auto file = directory.write("good.toml", good);

@@ -7,7 +7,6 @@
 #include <numbers>
 
 using namespace capsule;
-namespace tt = boost::test_tools;
 
 namespace {
 

@@ -19,7 +19,9 @@ Case between_mouths() {
 // x_g = sinh(t - 2) + 3, and a bell-shaped pulse.
 std::vector<SeriesRow> bell(double from, double to) {
   std::vector<SeriesRow> series;
-  for (double x = from; x < to + 1e-9; x += row_spacing) {
+  const auto rows = std::lround((to - from) / row_spacing) + 1;
+  for (long k = 0; k < rows; ++k) {
+    const double x = from + static_cast<double>(k) * row_spacing;
     SeriesRow row;
     row.x_g = x;
     row.time = 2 + std::asinh(x - 3);

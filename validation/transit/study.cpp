@@ -17,6 +17,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <numbers>
 
 using namespace capsule;
@@ -91,14 +92,16 @@ bool spheres(const std::string &directory) {
       off_the_tube = std::max(off_the_tube, std::abs(resistances[steps / 2] / volume - sphere.resistance));
   }
   table.write(directory + "/spheres.csv");
-  return check(asymmetry < 1e-6, fmt::format("mirror images go alike to {:.1e}", asymmetry)) &
-         check(electric_asymmetry < 1e-7,
-               fmt::format("and add the same resistance to {:.1e}", electric_asymmetry)) &
-         check(off_the_tube < std::exp(-decay * (second_mouth / 2 - 0.8)),
-               fmt::format("in the middle all is that of a tube to {:.1e}", off_the_tube)) &
-         check(flow_rate_off < 1e-4,
-               fmt::format("at constant pressure a sphere of 0.8 leaves the flow rate 0.88206 to {:.1e}",
-                           flow_rate_off));
+  const bool claims[] = {
+      check(asymmetry < 1e-6, fmt::format("mirror images go alike to {:.1e}", asymmetry)),
+      check(electric_asymmetry < 1e-7,
+            fmt::format("and add the same resistance to {:.1e}", electric_asymmetry)),
+      check(off_the_tube < std::exp(-decay * (second_mouth / 2 - 0.8)),
+            fmt::format("in the middle all is that of a tube to {:.1e}", off_the_tube)),
+      check(flow_rate_off < 1e-4,
+            fmt::format("at constant pressure a sphere of 0.8 leaves the flow rate 0.88206 to {:.1e}",
+                        flow_rate_off))};
+  return std::ranges::all_of(claims, std::identity());
 }
 
 // Points of the meridian plane that a volume is integrated by, each with a length in which nothing is in its way.
