@@ -10,7 +10,7 @@
 namespace capsule {
 
 // The key that grows with the flow.
-inline constexpr const char *flow_key = "flow.capillary_number";
+inline constexpr const char *flow_key = "flow.capillary_number", *bending_key = "membrane.bending_ratio";
 
 const std::vector<Key> &keys();
 const Key *find_key(const std::string &name);

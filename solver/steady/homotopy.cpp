@@ -3,10 +3,12 @@
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
 #include "steady/continuation.hpp"
+#include "steady/fold_curve.hpp"
 #include "steady/newton.hpp"
 #include "steady/relaxation.hpp"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <optional>
 #include <utility>
@@ -60,6 +62,14 @@ public:
 
   const SteadyState &state() const { return state_; }
 
+  // Where the branch of the last key has turned for good.
+  struct Fold {
+    SteadyState state;
+    double part = 0;
+    Vector tangent;
+  };
+  const Fold &fold() const { return place_.fold; }
+
 private:
   int most() const { return target_.mesh.membrane > 0 ? target_.mesh.membrane : most_nodes; }
   int next_mesh() const { return std::min(finer_mesh(static_cast<int>(state_.system->nodes())), most()); }
@@ -110,8 +120,12 @@ private:
           state_.unknowns = branch.before_fold(fold, 1).unknowns;
           return true;
         }
-        if (place_.turned_at.empty() || fold.parameter > place_.farthest)
+        if (place_.turned_at.empty() || fold.parameter > place_.farthest) {
           place_.farthest = fold.parameter;
+          place_.fold = {{std::make_shared<SteadySystem>(*state_.system), fold.unknowns},
+                         fold.parameter,
+                         branch.tangent_before()};
+        }
         place_.turned_at = path.text(place_.farthest);
         place_.stretch_at_fold = state_.system->largest_stretch(fold.unknowns);
       }
@@ -147,6 +161,7 @@ private:
     double first_step = 0.2;
     std::string turned_at; // the farthest fold, while the branch is behind it
     double farthest = 0, stretch_at_fold = 0;
+    Fold fold; // the farthest one
   };
 
   Case target_, now_;
@@ -167,14 +182,15 @@ Homotopy from_a_stiff_sphere(const Case &target, const Control &control) {
   return {target, begin, {system, solve_steady(*system, system->initial())}, control};
 }
 
-// The capsule itself, but for a stiff membrane, let loose in the tube: undeformed, or squeezed if it is wider than that.
-// Then the membrane is softened in stages, on a finer mesh if it folds more than this one can show.
-SteadyState by_relaxation(const Case &target, const Control &control) {
-  constexpr double widest = 0.85, stage = 10, thinnest = 1e-7;
-  Case now = target;
-  double &bending = now.membrane.bending_ratio;
-  bending = std::max(bending_to_relax, bending);
-  SteadyState state{first_system(now), {}};
+Case with_stiff_membrane(Case input) {
+  input.membrane.bending_ratio = std::max(bending_to_relax, input.membrane.bending_ratio);
+  return input;
+}
+
+// The capsule let loose in the tube: undeformed, or squeezed if it is wider than that.
+SteadyState let_loose(const Case &input, const Control &control) {
+  constexpr double widest = 0.85;
+  SteadyState state{first_system(input), {}};
   Vector shape = state.system->initial();
   if (state.system->pore()) {
     const Eigen::Index n = state.system->nodes();
@@ -183,6 +199,27 @@ SteadyState by_relaxation(const Case &target, const Control &control) {
     shape.head(n) /= squeeze * squeeze;
   }
   state.unknowns = relaxed(*state.system, shape, control);
+  return state;
+}
+
+// A state on so many nodes: by Newton's method, or if it does not get there from rest to rest.
+SteadyState relaxed_on_mesh(const Case &input, int nodes, const SteadyState &state, const Control &control) {
+  try {
+    return on_mesh(input, nodes, state);
+  } catch (const NumericsFailure &) {
+    SteadyState moved = moved_to_mesh(input, nodes, state);
+    moved.unknowns = solve_steady(*moved.system, relaxed(*moved.system, moved.unknowns, control));
+    return moved;
+  }
+}
+
+// The capsule itself, but for a stiff membrane, let loose in the tube. Then the membrane is softened in stages, on a finer
+// mesh if it folds more than this one can show.
+SteadyState by_relaxation(const Case &target, const Control &control) {
+  constexpr double stage = 10, thinnest = 1e-7;
+  Case now = with_stiff_membrane(target);
+  const double &bending = now.membrane.bending_ratio;
+  SteadyState state = let_loose(now, control);
   while (bending > target.membrane.bending_ratio) {
     Case softer = now;
     softer.membrane.bending_ratio = bending / stage < thinnest
@@ -203,7 +240,7 @@ SteadyState by_relaxation(const Case &target, const Control &control) {
   if (target.mesh.membrane > 0) // no finer than asked for
     state.unknowns = solve_steady(*state.system, state.unknowns);
   else
-    state = on_mesh(target, finer_mesh(static_cast<int>(state.system->nodes())), state);
+    state = relaxed_on_mesh(target, finer_mesh(static_cast<int>(state.system->nodes())), state, control);
   return state;
 }
 
@@ -214,13 +251,66 @@ Homotopy in_a_flow(double strength, const Case &target, const Control &control) 
   homotopy.vary(flow_key, strength);
   homotopy.vary("capsule.radius", target.capsule.radius);
   homotopy.vary("capsule.aspect_ratio", target.capsule.aspect_ratio);
-  homotopy.vary("membrane.bending_ratio", target.membrane.bending_ratio);
+  homotopy.vary(bending_key, target.membrane.bending_ratio);
   return homotopy;
 }
 
 // What a fold on the way of growing flow says of the case.
 NumericsFailure no_steady_state(const NumericsFailure &fold) {
   return {failure_kind::fold, fmt::format("no steady state: {}", fold.what()), fold.advice};
+}
+
+// The fold that a growing flow meets before the case's own, if it does: that of a stiff membrane, which few nodes show,
+// followed to the case's. A soft membrane may need more nodes than are worth their time; the fold hardly moves there.
+std::optional<NumericsFailure> fold_of_weaker_flow(const Case &input, const Control &control) {
+  constexpr int finest = 120; // nodes
+  constexpr double thinnest = 1e-7, safe = 3;
+  const double flow = input.flow.capillary_number;
+  const double thin = std::max(input.membrane.bending_ratio, thinnest);
+  const Case stiff = with_stiff_membrane(input);
+  for (const double part : {0.25, 0.125, 0.0625}) { // of the flow, in which it comes to rest
+    Case weaker = stiff;
+    weaker.flow.capillary_number *= part;
+    const KeyPath key(flow_key, weaker, flow), second(bending_key, weaker, thin);
+    double value = 0, bending = 0, slope = 0; // of the last fold, and d value/d log(bending)
+    try {
+      Homotopy homotopy(stiff, weaker, let_loose(weaker, control), control);
+      try {
+        homotopy.vary(flow_key, flow);
+        return {};
+      } catch (const NumericsFailure &failure) {
+        if (failure.kind != failure_kind::fold)
+          throw;
+      }
+      Homotopy::Fold fold = homotopy.fold();
+      value = key.value(fold.part);
+      bending = weaker.membrane.bending_ratio;
+      if (second.needed())
+        follow_fold(fold.state, {fold.state.unknowns, fold.part, 0},
+                    fold.tangent.head(fold.state.unknowns.size()), key, second, finest, control,
+                    [&](const SteadyState & /*state*/, const FoldPoint &point) {
+                      const double before = std::exchange(value, key.value(point.part));
+                      const double stiffer = std::exchange(bending, second.value(point.second_part));
+                      if (bending < stiffer)
+                        slope = (value - before) / std::log(bending / stiffer);
+                    });
+    } catch (const NumericsFailure &) {
+      if (value == 0)
+        continue;
+    }
+    if (second.needed() && slope == 0)
+      return {}; // the fold is that of the stiff membrane only
+    const double change = safe * std::abs(slope * std::log(thin / bending)); // that is left
+    if (value + change > flow)
+      return {};
+    const std::string place =
+        bending == thin
+            ? fmt::format("{} = {:.6g}", flow_key, value)
+            : fmt::format("about {} = {:.3g} +- {:.1g}, followed from a stiffer membrane to {} = {:.2g}",
+                          flow_key, value, change, bending_key, bending);
+    return no_steady_state({failure_kind::fold, "fold at " + place, "stay on the near side of it"});
+  }
+  return {};
 }
 
 SteadyState without_neighbours(const Case &input, const Control &control) {
@@ -244,6 +334,9 @@ SteadyState without_neighbours(const Case &input, const Control &control) {
         throw no_steady_state(failure);
       last = failure;
     }
+    if (part == 1)
+      if (const auto fold = fold_of_weaker_flow(input, control))
+        throw NumericsFailure(*fold);
   }
   if (input.capsule.shape != CapsuleShape::spheroid) // a small stiff sphere does not become one
     throw NumericsFailure(last.value());

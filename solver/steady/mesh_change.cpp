@@ -1,6 +1,7 @@
 #include "steady/mesh_change.hpp"
 #include "base/failure.hpp"
 #include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include "geometry/node_density.hpp"
 #include "steady/continuation.hpp"
 #include "steady/newton.hpp"
@@ -91,7 +92,6 @@ SteadyState moved_to_mesh(const Case &input, int nodes, const SteadyState &state
 // A folded shape that its mesh hardly resolves is a poor guess on another mesh. The folds of a stiffer membrane are
 // wider: there the mesh is changed.
 SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state) {
-  constexpr const char *bending_key = "membrane.bending_ratio";
   try {
     return solved_on_mesh(input, nodes, state);
   } catch (const NumericsFailure &) {
