@@ -1,7 +1,7 @@
 #!/bin/sh
 # Numbers in prose are those of the results. Behind a number that comes from a run stands a mark, a comment that no page shows:
 #   7.1764<!-- table1-mesh/: pressure_drop -->                  CASE/RUN: QUANTITY; RUN may be empty, for all
-#   14.31<!-- viscosity_ratio=1: pressure_drop -->              in a case's README.md, of this case
+#   14.31<!-- viscosity_ratio=1: pressure_drop -->              in the README.md of a case or a study, of this one
 #   1e-5<!-- < : max(abs(volume_change@x_g=-100..1000)) -->     a bound, or with > one from below
 # RUN and QUANTITY are written as in tables/published.csv (solver/compare/expectations.hpp). The printed number may be off by half
 # a unit of its last digit and the estimated error of the result. Marks become rows of a table of expectations, and
@@ -40,7 +40,7 @@ table_of() {
         bound = match(run, /^[<>]/) ? substr(run, 1, 1) : ""
         sub(/^[<>] */, "", run)
         split(FILENAME, folders, "/")
-        of = folders[1] == "cases" ? folders[2] : ""
+        of = folders[1] == "cases" || folders[1] == "validation" ? folders[2] : ""
         slash = index(run, "/")
         if (slash && index(substr(run, 1, slash), "=") == 0) {
           of = substr(run, 1, slash - 1)
@@ -84,6 +84,10 @@ compare() {
 }
 
 (cd "$project" && ls README.md cases/*/README.md paper-notes/*.md) >files
+for summary in results/*/summary.json; do # of the studies that leave one and were computed
+  study=validation/$(basename "$(dirname "$summary")")
+  [ ! -e "$project/$study/README.md" ] || echo "$study/README.md" >>files
+done
 while read -r file; do
   case $file in cases/*) ;; *) mkdir -p "$(dirname "$file")" && cp "$project/$file" "$file" ;; esac
 done <files

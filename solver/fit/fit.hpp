@@ -3,7 +3,8 @@
 // candidate law; what the contours say about them, and what they cannot tell.
 //   standard errors, correlations   from the linearised equations at the minimum
 //   90 % intervals                  profile likelihood: where the sum of squares, minimised over all other parameters, is
-//                                   by 2.706 variances above the minimum; open where it ends at a bound or a fold
+//                                   by 2.706 variances above the minimum; open where it ends at a bound or a fold, or does
+//                                   not grow so far
 //   ranking of laws                 AIC = n ln(sum/n) + 2k, or sum + 2k if the noise is given; evidence exp(-dAIC/2)
 // The search begins from steady states that the program makes itself at the contour's own volume, in flows of several
 // strengths, or from the fit of a contour beside this one. Only where states exist: nothing is extrapolated beyond a fold.
