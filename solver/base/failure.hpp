@@ -16,7 +16,7 @@ struct FileError : std::runtime_error {
 };
 
 // Why a computation cannot go on, one word each, which scripts read too; paper-notes/files.md says what they mean. `burst`
-// and `unbounded` end a run, but are no failures of it.
+// and `unbounded` end a march and are no failures of it.
 namespace failure_kind {
 inline constexpr const char *touching = "touching", *self_contact = "self-contact", *folded = "folded",
                             *wrinkled = "wrinkled", *exit = "exit", *volume = "volume", *step = "step",

@@ -267,7 +267,9 @@ std::optional<NumericsFailure> fold_of_weaker_flow(const Case &input, const Cont
   constexpr double thinnest = 1e-7, safe = 3;
   const double flow = input.flow.capillary_number;
   const double thin = std::max(input.membrane.bending_ratio, thinnest);
-  const Case stiff = with_stiff_membrane(input);
+  Case stiff = with_stiff_membrane(input);
+  if (stiff.mesh.membrane == 0)
+    stiff.mesh.membrane = finest;
   for (const double part : {0.25, 0.125, 0.0625}) { // of the flow, in which it comes to rest
     Case weaker = stiff;
     weaker.flow.capillary_number *= part;
@@ -334,7 +336,7 @@ SteadyState without_neighbours(const Case &input, const Control &control) {
         throw no_steady_state(failure);
       last = failure;
     }
-    if (part == 1)
+    if (part == 1 && last->kind == failure_kind::unbounded)
       if (const auto fold = fold_of_weaker_flow(input, control))
         throw NumericsFailure(*fold);
   }

@@ -2,6 +2,7 @@
 #include "base/failure.hpp"
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -63,6 +64,10 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
     step *= std::clamp(intended / error, 0.25, most_growth);
     most_growth = error < too_much ? std::min(2 * most_growth, 10.0) : 1.0;
   }
+  if (system.largest_stretch(shape) >= torn)
+    throw NumericsFailure(failure_kind::unbounded,
+                          fmt::format("the capsule runs away in the tube, stretched beyond {}", torn),
+                          "try a smaller flow.capillary_number");
   throw NumericsFailure(failure_kind::unresolved, "the shape does not come to rest in the tube",
                         "begin with a profile of a march at a later x_g (--from)");
 }

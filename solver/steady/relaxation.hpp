@@ -6,8 +6,8 @@
 
 namespace capsule {
 
-// Unknowns near to a steady state of the system, to which the shape relaxes. Throws NumericsFailure("unresolved") where
-// the shape does not come to rest, Interrupted.
+// Unknowns near to a steady state of the system, to which the shape relaxes. Throws NumericsFailure: "unresolved" where
+// the shape does not come to rest, "unbounded" where it stretches without end, Interrupted.
 Vector relaxed(SteadySystem &system, Vector shape, const Control &control);
 
 } // namespace capsule
