@@ -18,13 +18,13 @@ BOOST_AUTO_TEST_SUITE(node_density)
 
 // Ascending angles in (0, pi) for which the fold is resolved by several digits more than on even nodes.
 BOOST_AUTO_TEST_CASE(a_fold_gets_the_nodes) {
-  const MeridianBasis even = spectral_basis(300), basis = spectral_basis(100);
-  const Vector angles = suitable_angles(basis, even, even.nodes, folded(even.nodes));
+  const MeridianBasis even = spectral_basis(300), coarse = spectral_basis(100);
+  const Vector angles = suitable_angles(coarse, even, even.nodes, folded(even.nodes));
   BOOST_TEST(angles[0] > 0);
   BOOST_TEST(angles[99] < pi);
   BOOST_TEST((angles.tail(99) - angles.head(99)).minCoeff() > 0);
-  const double on_even = unresolved_part(basis, folded(basis.nodes));
-  const double suited = unresolved_part(basis, folded(angles));
+  const double on_even = unresolved_part(coarse, folded(coarse.nodes));
+  const double suited = unresolved_part(coarse, folded(angles));
   BOOST_TEST(suited < 0.01 * on_even);
 }
 
