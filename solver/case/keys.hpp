@@ -9,7 +9,7 @@
 
 namespace capsule {
 
-// The key that grows with the flow.
+// The keys of the strength of the flow and of the bending stiffness.
 inline constexpr const char *flow_key = "flow.capillary_number", *bending_key = "membrane.bending_ratio";
 
 const std::vector<Key> &keys();
