@@ -76,6 +76,7 @@ struct Control {
   std::function<bool()> interrupted;                           // asked after each step
   std::function<bool()> wants_checkpoint;                      // asked after each step
   std::function<void(const Checkpoint &)> save; // where either is answered by yes, and after each leg
+  std::function<void(double work)> spend;       // before each part of a search for a steady state
 };
 
 // Thrown where the caller has asked to stop.
@@ -83,6 +84,16 @@ struct Interrupted {};
 inline void throw_if_interrupted(const Control &control) {
   if (control.interrupted && control.interrupted())
     throw Interrupted{};
+}
+
+// Thrown by `spend` where a search has done the work that it may cost.
+struct Exhausted {};
+// Asks for a number of linearisations of a steady state on so many nodes. The work is counted in those on 48 nodes, whose
+// time grows with the square of the nodes.
+inline void spend(const Control &control, double linearisations, double nodes) {
+  throw_if_interrupted(control);
+  if (control.spend)
+    control.spend(linearisations * (nodes / 48) * (nodes / 48));
 }
 
 } // namespace capsule

@@ -30,9 +30,9 @@ bool poorly_resolved(const SteadySystem &system, const Vector &unknowns) {
 }
 
 Branch::Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vector &direction,
-               const Steps &steps, Trend trend)
-    : system_(&system), path_(std::move(path)), point_(std::move(start)), steps_(steps), step_(steps.first),
-      trend_(trend), trend_before_(trend) {
+               const Steps &steps, Trend trend, Control control)
+    : system_(&system), path_(std::move(path)), control_(std::move(control)), point_(std::move(start)),
+      steps_(steps), step_(steps.first), trend_(trend), trend_before_(trend) {
   const Corrected first = correct(point_, direction / std::sqrt(weighted(direction, direction)), 0,
                                   position_tolerance, Vector::Zero(direction.size()));
   point_ = first.point;
@@ -79,6 +79,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
   Vector slope;
   double before = 1, contraction = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    spend(control_, 1, static_cast<double>(n));
     system_->set_parameters(path_.at(now.parameter));
     system_->fit_tube(now.unknowns);
     const SteadySystem::Linearisation linear = system_->linearise(now.unknowns);

@@ -4,6 +4,7 @@
 // to 1. Lengths along a branch combine the parameter and the root mean square displacement of the nodes, with a weight
 // that makes both count: a shell that buckles turns a branch within displacements of 1e-3.
 #include "case/key_path.hpp"
+#include "observe/outcome.hpp"
 #include "steady/steady_system.hpp"
 
 namespace capsule {
@@ -27,9 +28,9 @@ public:
   enum class Trend { falls, grows };
   // `start` is near to a steady state. The branch begins with the state next to it in the plane across `direction`
   // (changes of the unknowns, then of the parameter), and goes on to that side. `trend` is that of the way to the start:
-  // a fold may lie between.
+  // a fold may lie between. What it asks of `control` it asks before each linearisation, and throws Interrupted, too.
   Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vector &direction, const Steps &steps,
-         Trend trend = Trend::grows);
+         Trend trend = Trend::grows, Control control = {});
   // The direction in which the parameter alone grows.
   static Vector upwards(const SteadySystem &system);
 
@@ -77,6 +78,7 @@ private:
 
   SteadySystem *system_;
   KeyPath path_;
+  Control control_;
   BranchPoint point_, before_, oldest_;
   Vector tangent_, tangent_before_;
   Steps steps_;

@@ -210,7 +210,7 @@ FoldPoint follow_fold(SteadyState &state, const FoldPoint &start, const Vector &
   };
   tell(curve->point());
   for (int k = 0; k < most_points; ++k) {
-    throw_if_interrupted(control);
+    spend(control, 6, static_cast<double>(state.system->nodes()));
     try {
       curve->advance();
     } catch (const NumericsFailure &) {

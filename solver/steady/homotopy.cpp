@@ -10,8 +10,11 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace capsule {
 namespace {
@@ -93,10 +96,9 @@ private:
     const Branch::Steps steps{.first = place_.first_step, .largest = 0.7, .tolerance = 1e-7};
     constexpr int most_steps = 200;
     constexpr double first_part = -1; // as far as a branch that has turned is followed
-    Branch branch(*state_.system, path, {state_.unknowns, place_.part}, place_.direction, steps,
-                  place_.trend);
+    Branch branch(*state_.system, path, {state_.unknowns, place_.part}, place_.direction, steps, place_.trend,
+                  control_);
     for (int step = 0; step < most_steps; ++step) {
-      throw_if_interrupted(control_);
       state_.unknowns = branch.point().unknowns;
       place_.part = branch.point().parameter;
       place_.direction = branch.tangent();
@@ -205,7 +207,7 @@ SteadyState let_loose(const Case &input, const Control &control) {
 // A state on so many nodes: by Newton's method, or if it does not get there from rest to rest.
 SteadyState relaxed_on_mesh(const Case &input, int nodes, const SteadyState &state, const Control &control) {
   try {
-    return on_mesh(input, nodes, state);
+    return on_mesh(input, nodes, state, control);
   } catch (const NumericsFailure &) {
     SteadyState moved = moved_to_mesh(input, nodes, state);
     moved.unknowns = solve_steady(*moved.system, relaxed(*moved.system, moved.unknowns, control));
@@ -234,7 +236,7 @@ SteadyState by_relaxation(const Case &target, const Control &control) {
       if (nodes > most_to_relax_on)
         throw;
       state.system->set_parameters(now);
-      state = on_mesh(now, finer_mesh(nodes), state);
+      state = on_mesh(now, finer_mesh(nodes), state, control);
     }
   }
   if (target.mesh.membrane > 0) // no finer than asked for
@@ -315,7 +317,8 @@ std::optional<NumericsFailure> fold_of_weaker_flow(const Case &input, const Cont
   return {};
 }
 
-SteadyState without_neighbours(const Case &input, const Control &control) {
+// What it tried and saw is added to `tried`.
+SteadyState searched(const Case &input, const Control &control, std::vector<std::string> &tried) {
   const double flow = input.flow.capillary_number;
   std::optional<NumericsFailure> last;
   for (const double part : {1.0, 0.5, 0.25, 0.125}) { // of the flow, in which the capsule may come to rest
@@ -335,6 +338,8 @@ SteadyState without_neighbours(const Case &input, const Control &control) {
       if (only_flow_is_left && failure.kind == failure_kind::fold)
         throw no_steady_state(failure);
       last = failure;
+      tried.push_back(
+          fmt::format("relaxed at {} = {:.3g}: {}", flow_key, weaker.flow.capillary_number, failure.what()));
     }
     if (part == 1 && last->kind == failure_kind::unbounded)
       if (const auto fold = fold_of_weaker_flow(input, control))
@@ -356,12 +361,37 @@ SteadyState without_neighbours(const Case &input, const Control &control) {
         throw no_steady_state(failure);
       if (!first)
         first = failure;
+      tried.push_back(
+          fmt::format("from a small stiff sphere at {} = {:.3g}: {}", flow_key, strength, failure.what()));
     }
   }
   throw NumericsFailure(first->kind == failure_kind::fold ? failure_kind::unresolved : first->kind,
                         fmt::format("no way found from a small stiff sphere: {}", first->what()),
                         first->kind == failure_kind::fold ? "try a larger membrane.bending_ratio"
                                                           : first->advice);
+}
+
+// Within the work that a search may cost: some hundred times that of most capsules.
+SteadyState without_neighbours(const Case &input, const Control &control) {
+  constexpr double most_work = 2500;
+  double work = 0;
+  Control limited = control;
+  limited.spend = [&](double more) {
+    if (control.spend)
+      control.spend(more);
+    work += more;
+    if (work > most_work)
+      throw Exhausted{};
+  };
+  std::vector<std::string> tried;
+  try {
+    return searched(input, limited, tried);
+  } catch (const Exhausted &) {
+    throw NumericsFailure(failure_kind::unresolved,
+                          fmt::format("no steady state found in the work that a search may cost ({})",
+                                      tried.empty() ? "relaxing" : fmt::format("{}", fmt::join(tried, "; "))),
+                          "begin with a profile of a march (--from)");
+  }
 }
 
 // The state of a capsule alone, and then its neighbours: near enough to be felt at once, or coming closer if Newton's

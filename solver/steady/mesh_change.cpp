@@ -30,10 +30,11 @@ SteadyState solved_on_mesh(const Case &input, int nodes, const SteadyState &stat
 }
 
 // Takes a state along a branch to the branch's end, on the same mesh.
-void follow(const KeyPath &path, SteadyState &state) {
+void follow(const KeyPath &path, SteadyState &state, const Control &control) {
   constexpr Branch::Steps steps{.first = 0.1, .largest = 0.5, .tolerance = 1e-8};
   constexpr int most_steps = 60;
-  Branch branch(*state.system, path, {state.unknowns, 0}, Branch::upwards(*state.system), steps);
+  Branch branch(*state.system, path, {state.unknowns, 0}, Branch::upwards(*state.system), steps,
+                Branch::Trend::grows, control);
   for (int step = 0; branch.point().parameter < 1; ++step) {
     if (step == most_steps || branch.point().parameter < 0)
       throw NumericsFailure(failure_kind::unresolved, fmt::format("no way to {}", path.text(1)),
@@ -91,7 +92,7 @@ SteadyState moved_to_mesh(const Case &input, int nodes, const SteadyState &state
 
 // A folded shape that its mesh hardly resolves is a poor guess on another mesh. The folds of a stiffer membrane are
 // wider: there the mesh is changed.
-SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state) {
+SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state, const Control &control) {
   try {
     return solved_on_mesh(input, nodes, state);
   } catch (const NumericsFailure &) {
@@ -100,9 +101,9 @@ SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state) {
       try {
         const KeyPath stiffer(bending_key, input, factor * std::max(bending, 1e-6));
         SteadyState moved{std::make_shared<SteadySystem>(*state.system), state.unknowns};
-        follow(stiffer, moved);
+        follow(stiffer, moved, control);
         moved = solved_on_mesh(stiffer.at(1), nodes, moved);
-        follow(KeyPath(bending_key, stiffer.at(1), bending), moved);
+        follow(KeyPath(bending_key, stiffer.at(1), bending), moved, control);
         return moved;
       } catch (const NumericsFailure &) {
         continue;

@@ -2,6 +2,7 @@
 // Meshes for steady states, and steady states moved from one mesh to another. A mesh is a number of nodes, and the
 // angles on the undeformed spheroid at which they lie: evenly at first, then where a shape needs them
 // (node_density.hpp). Throws NumericsFailure("unresolved") where no state is found on a mesh.
+#include "observe/outcome.hpp"
 #include "steady/steady_system.hpp"
 #include <memory>
 
@@ -32,6 +33,6 @@ Vector moved_to(const SteadySystem &to, const SteadySystem &from, const Vector &
 // A state on so many nodes, not solved for: a guess.
 SteadyState moved_to_mesh(const Case &input, int nodes, const SteadyState &state);
 // The state itself on so many nodes; if need be by way of a stiffer membrane.
-SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state);
+SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state, const Control &control = {});
 
 } // namespace capsule

@@ -26,7 +26,7 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
   int poor = 0;
   double speed_before = 0; // of the last step that was taken
   for (int k = 0; k < most_steps && step > shortest_step && system.largest_stretch(shape) < torn; ++k) {
-    throw_if_interrupted(control);
+    spend(control, 1, static_cast<double>(n2) / 2);
     Matrix implicit = linear.jacobian;
     implicit.diagonal().head(n2).array() -= 1 / step;
     const Vector change = implicit.partialPivLu().solve(-linear.residual);

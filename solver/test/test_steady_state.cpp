@@ -353,6 +353,22 @@ BOOST_AUTO_TEST_CASE(four_nodes) {
   BOOST_TEST((outcome.status == Status::steady || !outcome.failure.empty()));
 }
 
+// A search ends where it has done the work that it may cost, which the caller can count and shorten, and says so.
+BOOST_AUTO_TEST_CASE(a_search_that_costs_too_much) {
+  double spent = 0;
+  Control control;
+  control.spend = [&](double work) {
+    spent += work;
+    if (spent > 5)
+      throw Exhausted{};
+  };
+  const Outcome outcome = steady(tube_case(neo_hookean, 0.8, 0.05, 1e-3), {}, control);
+  BOOST_TEST((outcome.status == Status::failed));
+  BOOST_TEST(outcome.failure == failure_kind::unresolved);
+  BOOST_TEST(outcome.message.find("no steady state found in the work that a search may cost") == 0U);
+  BOOST_TEST(spent < 10);
+}
+
 // Beyond the fold of a neo-Hookean capsule there is nothing to find, and the message says where it lies.
 BOOST_AUTO_TEST_CASE(beyond_the_fold) {
   const Outcome outcome = steady(tube_case(neo_hookean, 0.8, 0.25, 1e-2), {}, {});
