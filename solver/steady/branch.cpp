@@ -208,7 +208,9 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
     follower.keep_latest();
     outcome.status = Status::failed;
     outcome.failure = failure.kind;
-    outcome.message = fmt::format("{} (after {}); {}", failure.what(), follower.place(), failure.advice);
+    outcome.message = fmt::format("{}{}; {}", failure.what(),
+                                  outcome.branch.empty() ? "" : fmt::format(" (after {})", follower.place()),
+                                  failure.advice);
   } catch (const Interrupted &) {
     outcome.status = Status::interrupted;
   }

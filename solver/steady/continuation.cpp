@@ -224,7 +224,7 @@ BranchPoint Branch::fold() const {
   };
   double tangent_first = by_tangents(first + h);
   const double tangent_last = by_tangents(last - h);
-  // Before the start of the branch there is no point that the fold cannot lie beyond.
+  // The fold may lie before the first point of the branch.
   while (points_ == 2 && tangent_first * tangent_last > 0 && -first < 2 * last) {
     first *= 1.5;
     tangent_first = by_tangents(first + h);

@@ -23,10 +23,11 @@ namespace {
 constexpr double weak_flow = 5e-3;
 constexpr double small_radius = 0.6;
 constexpr double stiff_bending = 2e-2; // a shell that does not buckle
-// From this one relaxes. Softer ones buckle on the way to a shape that does not.
+// The capsule relaxes with this one. Softer shells buckle on the way to a shape that does not.
 constexpr double bending_to_relax = 1e-2;
 constexpr int most_to_relax_on = 70; // nodes
-// As hard to stretch as that one relaxes. Harder ones would come to rest in steps that are too short.
+constexpr double thinnest = 1e-7;    // from here on the case's own is near enough
+// The membrane relaxes with a modulus of area up to this one. Stiffer ones would need steps that are too short.
 constexpr std::array area_keys{"membrane.dilatation", "membrane.area_modulus"};
 constexpr double area_modulus_to_relax = 100;
 
@@ -218,7 +219,7 @@ SteadyState relaxed_on_mesh(const Case &input, int nodes, const SteadyState &sta
 // The capsule itself, but for a stiff membrane, let loose in the tube. Then the membrane is softened in stages, on a finer
 // mesh if it folds more than this one can show.
 SteadyState by_relaxation(const Case &target, const Control &control) {
-  constexpr double stage = 10, thinnest = 1e-7;
+  constexpr double stage = 10;
   Case now = with_stiff_membrane(target);
   const double &bending = now.membrane.bending_ratio;
   SteadyState state = let_loose(now, control);
@@ -266,17 +267,17 @@ NumericsFailure no_steady_state(const NumericsFailure &fold) {
 // followed to the case's. A soft membrane may need more nodes than are worth their time; the fold hardly moves there.
 std::optional<NumericsFailure> fold_of_weaker_flow(const Case &input, const Control &control) {
   constexpr int finest = 120; // nodes
-  constexpr double thinnest = 1e-7, safe = 3;
+  constexpr double safe = 3;
   const double flow = input.flow.capillary_number;
   const double thin = std::max(input.membrane.bending_ratio, thinnest);
   Case stiff = with_stiff_membrane(input);
   if (stiff.mesh.membrane == 0)
     stiff.mesh.membrane = finest;
-  for (const double part : {0.25, 0.125, 0.0625}) { // of the flow, in which it comes to rest
+  for (double start = flow / 4; start > weak_flow / 4; start /= 4) { // a flow in which it comes to rest
     Case weaker = stiff;
-    weaker.flow.capillary_number *= part;
+    weaker.flow.capillary_number = start;
     const KeyPath key(flow_key, weaker, flow), second(bending_key, weaker, thin);
-    double value = 0, bending = 0, slope = 0; // of the last fold, and d value/d log(bending)
+    double value = 0, part = 0, bending = 0, slope = 0; // of the last fold, and d value/d log(bending)
     try {
       Homotopy homotopy(stiff, weaker, let_loose(weaker, control), control);
       try {
@@ -287,13 +288,15 @@ std::optional<NumericsFailure> fold_of_weaker_flow(const Case &input, const Cont
           throw;
       }
       Homotopy::Fold fold = homotopy.fold();
-      value = key.value(fold.part);
+      part = fold.part;
+      value = key.value(part);
       bending = weaker.membrane.bending_ratio;
       if (second.needed())
         follow_fold(fold.state, {fold.state.unknowns, fold.part, 0},
                     fold.tangent.head(fold.state.unknowns.size()), key, second, finest, control,
                     [&](const SteadyState & /*state*/, const FoldPoint &point) {
-                      const double before = std::exchange(value, key.value(point.part));
+                      part = point.part;
+                      const double before = std::exchange(value, key.value(part));
                       const double stiffer = std::exchange(bending, second.value(point.second_part));
                       if (bending < stiffer)
                         slope = (value - before) / std::log(bending / stiffer);
@@ -308,11 +311,10 @@ std::optional<NumericsFailure> fold_of_weaker_flow(const Case &input, const Cont
     if (value + change > flow)
       return {};
     const std::string place =
-        bending == thin
-            ? fmt::format("{} = {:.6g}", flow_key, value)
-            : fmt::format("about {} = {:.3g} +- {:.1g}, followed from a stiffer membrane to {} = {:.2g}",
-                          flow_key, value, change, bending_key, bending);
-    return no_steady_state({failure_kind::fold, "fold at " + place, "stay on the near side of it"});
+        bending == thin ? "at " + key.text(part)
+                        : fmt::format("near {}, where it is for {} = {:.2g}; it lies within {:.1g} of that",
+                                      key.text(part), bending_key, bending, change);
+    return no_steady_state({failure_kind::fold, "fold " + place, "stay on the near side of it"});
   }
   return {};
 }

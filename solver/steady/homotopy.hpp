@@ -3,7 +3,7 @@
 // softened then (relaxation.hpp); if need be in a weaker flow, from which a branch (continuation.hpp) leads to the case's
 // own. Where it does not come to rest at all, branches lead from a small stiff sphere in a weak flow to the case's
 // capsule, one key after the other, the capillary number last. The mesh gets finer on the way where it must.
-// A flow in which the stiff membrane does not come to rest may be too strong: then the fold of a stiffer membrane, which few
+// A flow in which the stiff membrane runs away may be too strong: then the fold of a stiffer membrane, which few
 // nodes show, is followed to the case's (fold_curve.hpp) before anything else is tried.
 // A train begins with one capsule alone.
 #include "observe/outcome.hpp"

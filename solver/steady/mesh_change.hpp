@@ -1,6 +1,6 @@
 #pragma once
 // Meshes for steady states, and steady states moved from one mesh to another. A mesh is a number of nodes, and the
-// angles on the undeformed spheroid at which they lie: evenly at first, then where a shape needs them
+// angles on the undeformed capsule at which they lie: evenly at first, then where a shape needs them
 // (node_density.hpp). Throws NumericsFailure("unresolved") where no state is found on a mesh.
 #include "observe/outcome.hpp"
 #include "steady/steady_system.hpp"

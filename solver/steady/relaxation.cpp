@@ -59,8 +59,9 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
     // A linearisation that misses as much of a small motion as of a large one is that of a finer mesh.
     poor = error > intended / 2 && moved < small ? poor + 1 : 0;
     if (poor > most_poor)
-      throw NumericsFailure(failure_kind::unresolved, "the mesh is too coarse for the shape in the tube",
-                            "try a finer mesh.membrane");
+      throw NumericsFailure(
+          failure_kind::unresolved, "the mesh is too coarse for the shape in the tube",
+          "try a larger membrane.bending_ratio, or begin with a profile of a march (--from)");
     step *= std::clamp(intended / error, 0.25, most_growth);
     most_growth = error < too_much ? std::min(2 * most_growth, 10.0) : 1.0;
   }
