@@ -323,6 +323,7 @@ std::optional<NumericsFailure> fold_of_weaker_flow(const Case &input, const Cont
 SteadyState searched(const Case &input, const Control &control, std::vector<std::string> &tried) {
   const double flow = input.flow.capillary_number;
   std::optional<NumericsFailure> last;
+  bool has_run_away = false;
   for (const double part : {1.0, 0.5, 0.25, 0.125}) { // of the flow, in which the capsule may come to rest
     Case weaker = input;
     weaker.flow.capillary_number *= part;
@@ -343,7 +344,7 @@ SteadyState searched(const Case &input, const Control &control, std::vector<std:
       tried.push_back(
           fmt::format("relaxed at {} = {:.3g}: {}", flow_key, weaker.flow.capillary_number, failure.what()));
     }
-    if (part == 1 && last->kind == failure_kind::unbounded)
+    if (last->kind == failure_kind::unbounded && !std::exchange(has_run_away, true))
       if (const auto fold = fold_of_weaker_flow(input, control))
         throw NumericsFailure(*fold);
   }
