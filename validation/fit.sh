@@ -103,4 +103,39 @@ ends 0 fit together.toml --profile flow-0.04.csv --profile flow-0.06.csv --toget
 within capsule.radius .87999 .88001
 within flow.capillary_number .039999 .040001
 within capsule.inflation .02499 .02501
+# A flow rate is given for all of them, in their files, or for none.
+sed 1d flow-0.06.csv >flow-none.csv
+ends 2 fit together.toml --profile flow-0.04.csv --profile flow-none.csv --together --out fit
+grep -q '^flow-none.csv:1:1: error: no flow rate' log || fail 'flow rates of some files only'
+cp profile.csv again.csv
+ends 2 fit fit-example.toml --profile profile.csv --profile again.csv --together --set 'physical.flow_rate="60 nl/s"'
+grep -q 'physical.flow_rate is of one contour' log || fail 'a flow rate of the case for several contours'
+
+# Noise gives no warning; what is no capsule, or another one, does not pass as one.
+ends 0 fit fit-example.toml --profile profile.csv --out fit
+grep -q '"warnings": \[\]' fit/fit.json || fail 'a warning of a good fit'
+# refused: odd.csv, from standard input, is no capsule
+refused() {
+  cat >odd.csv
+  ends 3 fit fit-example.toml --profile odd.csv --out odd --set 'fit.laws=["neo-hookean"]'
+  grep -q 'odd.csv: no capsule has this outline' log || fail "$1 is fitted"
+}
+{ echo x,r && seq -f %g -1 .01 1 | awk '{ printf "%.4f,%.4f\n", 2.5 * $1, .2 * sqrt(1 - $1 * $1) }'; } |
+  refused 'an ellipse'
+awk -F, 'NR > 3 { $0 = -$1 "," $2 } { print }' profile.csv | refused 'a reversed outline'
+# warned TEXT [ARGUMENT...]: odd.csv, from standard input, is fitted with this warning
+warned() {
+  pattern=$1
+  shift
+  cat >odd.csv
+  ends 0 fit fit-example.toml --profile odd.csv --out odd --set 'fit.laws=["neo-hookean"]' "$@"
+  grep -q "warning: .*$pattern" log || fail "no warning: $pattern"
+}
+awk -F, 'NR > 3 { $0 = $1 "," $2 + 4 } { print }' profile.csv | warned 'deviate from the fit to one side'
+warned 'deviate from the fit to one side' --set 'fit.unknowns=["capsule.radius"]' --set flow.capillary_number=0.02 \
+  <profile.csv
+warned 'is [0-9.]* of its standard deviations from' --set 'physical.flow_rate="50 nl/s"' <profile.csv
+ends 2 fit fit-example.toml --profile profile.csv --set 'fit.unknowns=[]'
+grep -q 'fit.unknowns needs at least one text' log || fail 'no unknowns'
+
 echo 'capsules are found from their outlines, and bad outlines are refused'

@@ -117,6 +117,8 @@ struct Setter {
   }
   std::optional<Complaint> operator()(const Member<Words> &member) const {
     const auto *words = std::get_if<Words>(&value);
+    if (const auto *none = std::get_if<std::vector<double>>(&value); none != nullptr && none->empty())
+      return Complaint{fmt::format("{} needs at least one text", key.name), "leave it out for its default"};
     if (!words)
       return wrong_type(key, "a list of texts", value);
     member.in(physics) = *words;

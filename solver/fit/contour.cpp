@@ -11,7 +11,6 @@
 #include <map>
 #include <numeric>
 #include <variant>
-#include <vector>
 
 namespace capsule {
 namespace {
@@ -131,7 +130,9 @@ struct Reader {
     for (Eigen::Index i = 0; i < points; ++i) {
       const CsvRow &row = rows[static_cast<std::size_t>(i) + 1];
       contour.x[i] = coordinate(row, "x", columns["x"]);
-      contour.r[i] = std::abs(coordinate(row, "r", columns["r"]));
+      const double r = coordinate(row, "r", columns["r"]);
+      contour.r[i] = std::abs(r);
+      contour.lower.push_back(r < 0);
       if (contour.r[i] >= 1)
         refuse(row.line, fmt::format("the point lies outside the tube: r = {:.4g} R_t", contour.r[i]),
                x_unit.empty()

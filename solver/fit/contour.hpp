@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace capsule {
 
@@ -23,6 +24,7 @@ struct Contour {
   std::optional<double> rear_pole_x = {}; // in R_t
   std::optional<double> velocity = {};    // m/s if the case is in physical units, otherwise in Q/(pi R_t^2)
   std::optional<double> flow_rate = {};   // m3/s, otherwise relative to the other contours'
+  std::vector<bool> lower = {};           // points with r < 0 in the file; none if empty
 };
 
 Contour read_contour(const std::filesystem::path &file, const Case &input);

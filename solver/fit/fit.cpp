@@ -3,6 +3,7 @@
 #include "case/case.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
+#include "fit/fit_checks.hpp"
 #include "fit/profile_likelihood.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
@@ -24,15 +25,18 @@ bool contains(const std::vector<std::string> &keys, const std::string &key) {
   return std::ranges::find(keys, key) != keys.end();
 }
 
+// Of a parameter "key#2" of the second contour: its key.
+std::string base_name(const std::string &name) {
+  return name.substr(0, name.find('#'));
+}
+
 // Bounds of a key: those of the case within its range.
 std::pair<double, double> bounds_of(const Case &input, const std::string &key) {
   double low = -1e9, high = 1e9;
   const Range &range = find_key(key)->range;
-  constexpr double inside = 1e-4; // of a range without its ends
+  const double inside = key == flow_key ? 1e-6 : 1e-4; // of a range without its ends
   low = std::max(low, range.low + (range.low_allowed ? 0 : inside));
   high = std::min(high, range.high - (range.high_allowed ? 0 : inside));
-  if (key == flow_key)
-    low = std::max(low, 1e-5);
   if (const auto given = input.fit.bounds.find(key);
       given != input.fit.bounds.end() && !given->second.empty()) {
     low = std::max(low, given->second.front());
@@ -125,7 +129,7 @@ private:
     const std::vector<std::string> names = states_->names();
     for (Eigen::Index j = 0; j < size; ++j) {
       const std::string &key = names[static_cast<std::size_t>(j)];
-      const std::string base = key.substr(0, key.find('#'));
+      const std::string base = base_name(key);
       if (find_key(base) == nullptr)
         continue;
       std::tie(problem_.low[j], problem_.high[j]) = bounds_of(input_, base);
@@ -260,8 +264,10 @@ void describe(LawFit &fit, FitResult &result) {
   const auto at_bounds = held(problem, minimum);
   for (std::size_t i = 0; i < told.size(); ++i) {
     if (at_bounds[told[i]])
-      result.warnings.push_back(
-          fmt::format("{} = {:.4g} is at its bound", result.values[i].name, result.values[i].value));
+      result.warnings.push_back(fmt::format(
+          "{} = {:.4g} is at {}", result.values[i].name, result.values[i].value,
+          states.input().fit.bounds.contains(base_name(result.values[i].name)) ? "its bound"
+                                                                               : "the end of its range"));
     for (std::size_t k = 0; k < i; ++k)
       if (const double r = result.correlations(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
           std::abs(r) > correlated)
@@ -299,26 +305,6 @@ void describe(LawFit &fit, FitResult &result) {
   }
 }
 
-// What is odd about the fit as a whole.
-void warn(FitResult &result, const Candidate &best) {
-  if (result.noise_is_given && result.degrees_of_freedom > 0) {
-    const double ratio = result.chi_squared / static_cast<double>(result.degrees_of_freedom);
-    const double spread = 3 * std::sqrt(2 / static_cast<double>(result.degrees_of_freedom));
-    if (ratio > 1 + spread)
-      result.warnings.push_back(
-          fmt::format("chi^2 is {:.3g} per degree of freedom: the noise is larger than fit.noise, or no "
-                      "law here makes this shape",
-                      ratio));
-  }
-  constexpr double decisive = 20;
-  for (const Candidate &other : result.candidates)
-    if (other.law != best.law && other.failure.empty() && other.evidence_ratio > 1 / decisive)
-      result.warnings.push_back(
-          fmt::format("{} is as good as {} within a factor of {:.3g} of evidence: this shape "
-                      "does not tell them apart",
-                      other.law, best.law, 1 / other.evidence_ratio));
-}
-
 } // namespace
 
 FitResult fit_contours(const Case &input, std::span<const Contour> contours, FitStarts &starts,
@@ -354,6 +340,7 @@ FitResult fit_contours(const Case &input, std::span<const Contour> contours, Fit
     if (candidate.failure.empty())
       candidate.evidence_ratio = std::exp((best.aic - candidate.aic) / 2);
   LawFit &fit = fits.at(best.law);
+  refuse_other_shapes(fit.states(), fit.minimum());
   fit.settle();
   found.insert_or_assign(best.law, std::pair(fit.states().anchors().front().state, fit.minimum().parameters));
   result.law = best.law;
@@ -362,7 +349,16 @@ FitResult fit_contours(const Case &input, std::span<const Contour> contours, Fit
   result.chi_squared = best.chi_squared;
   result.degrees_of_freedom = best.rows - best.parameters.size();
   describe(fit, result);
-  warn(result, best);
+  warn_of_noise(result);
+  warn_of_runs(result, contours);
+  warn_of_velocities(result, fit.states(), fit.minimum());
+  warn_of_rivals(result);
+  for (const Candidate &candidate : result.candidates)
+    if (candidate.failure.empty() && !fits.at(candidate.law).minimum().converged)
+      result.warnings.push_back(fmt::format(
+          "{}: the search ended before its minimum; values and errors may be wrong: give narrower "
+          "fit.bounds or fewer unknowns",
+          candidate.law));
   starts = std::move(found);
   return result;
 }

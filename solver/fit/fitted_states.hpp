@@ -54,13 +54,14 @@ public:
   Eigen::Index place(std::size_t contour) const { return places_ + static_cast<Eigen::Index>(contour); }
   // A key's value for a contour.
   double value(const Vector &parameters, std::size_t contour, std::size_t key) const;
-  // ln G and its slopes; 0 where it cannot be known: from the flow rate, or from the velocity.
+  // ln G and its slopes, from the flow rate or, without one, from the velocity; nothing where neither is known.
   struct Modulus {
     double logarithm = 0;
     Vector slopes;
     bool of_velocity = false;
   };
   std::optional<Modulus> modulus(const Vector &parameters) const;
+  std::optional<double> velocity(std::size_t contour) const; // as it was measured
   // Feet of a contour's points, in its own coordinate.
   std::vector<Foot> feet(const Vector &parameters, std::size_t contour) const;
 
@@ -70,7 +71,6 @@ private:
   Eigen::Index parameter(std::size_t contour, std::size_t key) const;
   double factor(std::size_t contour, std::size_t key) const;
   std::optional<double> flow_rate(std::size_t contour) const;
-  std::optional<double> velocity(std::size_t contour) const;
   double velocity_noise() const { return input_.fit.velocity_noise.value_or(0.01); }
 
   Case input_;

@@ -1,5 +1,6 @@
 #include "program/fit_profiles.hpp"
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 #include "base/digest.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
@@ -52,6 +53,21 @@ std::string identity_of(const Case &physics, const std::vector<Contour> &contour
   for (const Contour &contour : contours)
     content += contour.file.filename().string() + "\n" + read_file(contour.file);
   return run_identity(physics, {.motion = false, .name = "fit " + digest(content), .fit = true});
+}
+
+// Of contours that are fitted together: one scale for all of their flow rates.
+void check_together(const Case &physics, const std::vector<Contour> &contours) {
+  if (contours.size() < 2)
+    return;
+  if (physics.physical.flow_rate.si > 0)
+    throw InputError("error: physical.flow_rate is of one contour, not of several together\n"
+                     "give '# flow_rate = ...' in each file instead\n");
+  const auto without =
+      std::ranges::find(contours, false, [](const Contour &c) { return c.flow_rate.has_value(); });
+  if (without != contours.end() &&
+      std::ranges::any_of(contours, [](const Contour &c) { return c.flow_rate.has_value(); }))
+    throw InputError(csv_error(without->file, 1, "no flow rate, but other files have one") +
+                     "with --together, give '# flow_rate = ...' in each file or in none\n");
 }
 
 std::string report(const FitRow &row, const fs::path &directory) {
@@ -121,6 +137,8 @@ ExitCode fit_profiles(const std::vector<std::string> &profiles, bool together, c
   }
   if (jobs.empty() || (together && !errors.empty()))
     throw InputError(errors);
+  if (together)
+    check_together(physics, jobs.front().contours);
   for (Job &job : jobs)
     job.identity = identity_of(physics, job.contours);
   fmt::print(stderr, "{}", errors);

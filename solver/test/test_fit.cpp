@@ -128,6 +128,18 @@ BOOST_AUTO_TEST_CASE(the_modulus_follows_from_flow_rate_or_velocity) {
   }
 }
 
+// Weak flows are not cut off.
+BOOST_AUTO_TEST_CASE(a_small_capillary_number_is_found) {
+  Case input = inflated_case();
+  input.flow.capillary_number = 5e-5;
+  const Contour contour = outline_of(find_steady(input, {}, {}));
+  input.fit.unknowns = {"capsule.radius", flow_key};
+  FitStarts starts;
+  const FitResult fit = fit_contours(input, std::span(&contour, 1), starts, {});
+  BOOST_TEST(std::abs(value_of(fit, flow_key) / 5e-5 - 1) < 1e-3);
+  BOOST_TEST(fit.warnings.empty());
+}
+
 // Two laws: the right one has the evidence, and starts that were left shorten the way to the same place.
 BOOST_AUTO_TEST_CASE(laws_are_ranked) {
   const SteadyState state = find_steady(inflated_case(), {}, {});
