@@ -229,7 +229,7 @@ FoldPoint follow_fold(SteadyState &state, const FoldPoint &start, const Vector &
       continue;
     }
     const double part = curve->point().second_part;
-    const FoldPoint now = part >= 1 ? curve->at_second(1) : part <= 0 ? curve->at_second(0) : curve->point();
+    FoldPoint now = part >= 1 ? curve->at_second(1) : part <= 0 ? curve->at_second(0) : curve->point();
     tell(now);
     if (part >= 1 || part <= 0)
       return now;

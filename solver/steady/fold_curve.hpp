@@ -48,7 +48,7 @@ private:
     int iterations = 0;
   };
   Corrected correct(const FoldPoint &from, const Vector &tangent, double step, const Vector &curvature) const;
-  Corrected corrected(FoldPoint guess, const Vector &row, double aim, const Vector &direction) const;
+  Corrected corrected(FoldPoint now, const Vector &row, double aim, const Vector &direction) const;
   Vector curvature() const;
   double weighted(const Vector &a, const Vector &b) const;
   void set_parameters(double part, double second_part) const;

@@ -273,7 +273,9 @@ std::optional<NumericsFailure> fold_of_weaker_flow(const Case &input, const Cont
   Case stiff = with_stiff_membrane(input);
   if (stiff.mesh.membrane == 0)
     stiff.mesh.membrane = finest;
-  for (double start = flow / 4; start > weak_flow / 4; start /= 4) { // a flow in which it comes to rest
+  double start = flow;
+  while (start > weak_flow) { // to a flow in which it comes to rest
+    start /= 4;
     Case weaker = stiff;
     weaker.flow.capillary_number = start;
     const KeyPath key(flow_key, weaker, flow), second(bending_key, weaker, thin);
