@@ -137,29 +137,21 @@ void Branch::advance() {
   constexpr double straight = 0.85; // cosine between neighbouring tangents
   balance();
   const Vector bend = curvature();
-  for (;;) {
-    try {
-      const Corrected next = correct(point_, tangent_, step_, steps_.tolerance, bend);
-      if (weighted(next.tangent, tangent_) > straight) {
-        oldest_ = before_;
-        before_ = point_;
-        tangent_before_ = tangent_;
-        ++points_;
-        point_ = next.point;
-        tangent_ = next.tangent;
-        trend_before_ = trend_;
-        trend_ = point_.parameter < before_.parameter ? Trend::falls : Trend::grows;
-        step_ = std::min(step_factor(next.contraction) * step_, steps_.largest);
-        return;
-      }
-    } catch (const NumericsFailure &) {
-      if (step_ < 2 * smallest_step)
-        throw;
-    }
-    step_ /= 2;
-    if (step_ < smallest_step)
-      no_convergence();
-  }
+  take_step(step_, smallest_step, [&] {
+    const Corrected next = correct(point_, tangent_, step_, steps_.tolerance, bend);
+    if (!(weighted(next.tangent, tangent_) > straight))
+      return false;
+    oldest_ = before_;
+    before_ = point_;
+    tangent_before_ = tangent_;
+    ++points_;
+    point_ = next.point;
+    tangent_ = next.tangent;
+    trend_before_ = trend_;
+    trend_ = point_.parameter < before_.parameter ? Trend::falls : Trend::grows;
+    step_ = std::min(step_factor(next.contraction) * step_, steps_.largest);
+    return true;
+  });
 }
 
 BranchPoint Branch::at_parameter(double parameter) const {

@@ -158,23 +158,15 @@ void FoldCurve::advance() {
   constexpr double intended = 3e-3; // first correction
   constexpr double straight = 0.9;  // cosine between neighbouring tangents
   const Vector bend = curvature();
-  for (;;) {
-    try {
-      Corrected next = correct(point_, tangent_, step_, bend);
-      if (weighted(next.tangent, tangent_) > straight) {
-        const double factor = std::clamp(std::cbrt(intended / next.first_correction), 0.5, 2.0);
-        accept(std::move(next));
-        step_ = std::min(factor * step_, largest_step);
-        return;
-      }
-    } catch (const NumericsFailure &) {
-      if (step_ < 2 * smallest_step)
-        throw;
-    }
-    step_ /= 2;
-    if (step_ < smallest_step)
-      no_convergence();
-  }
+  take_step(step_, smallest_step, [&] {
+    Corrected next = correct(point_, tangent_, step_, bend);
+    if (!(weighted(next.tangent, tangent_) > straight))
+      return false;
+    const double factor = std::clamp(std::cbrt(intended / next.first_correction), 0.5, 2.0);
+    accept(std::move(next));
+    step_ = std::min(factor * step_, largest_step);
+    return true;
+  });
 }
 
 FoldPoint FoldCurve::at_second(double part) const {

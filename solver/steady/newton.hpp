@@ -1,5 +1,6 @@
 #pragma once
 // Newton's method for the equations of steady_system.hpp at given parameters.
+#include "base/failure.hpp"
 #include "steady/steady_system.hpp"
 
 namespace capsule {
@@ -16,5 +17,23 @@ Vector solve_steady(SteadySystem &system, Vector guess);
 // the other; and what is thrown if not.
 bool contracts(int iteration, double before, double now);
 [[noreturn]] void no_convergence();
+
+// Halves a step until one can be taken: `take` says whether it was, and throws NumericsFailure where there is no solution.
+// Throws where the smallest step fails.
+template <class Take>
+void take_step(double &step, double smallest, const Take &take) {
+  for (;;) {
+    try {
+      if (take())
+        return;
+    } catch (const NumericsFailure &) {
+      if (step < 2 * smallest)
+        throw;
+    }
+    step /= 2;
+    if (step < smallest)
+      no_convergence();
+  }
+}
 
 } // namespace capsule
