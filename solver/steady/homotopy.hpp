@@ -13,7 +13,7 @@ namespace capsule {
 
 // Throws NumericsFailure, of the kind "fold" when there is no steady state because the branch of growing capillary
 // numbers turns back and the membrane runs away behind the fold: the text says where. Any other turn says nothing
-// about the case, and is "unresolved"; "unbounded" where the capsule ran away in every flow that was tried. Throws
+// about the case, and is "unresolved"; "unbounded" where the capsule ran away in the last flow that was tried. Throws
 // Interrupted.
 SteadyState by_homotopy(const Case &input, const Control &control);
 
