@@ -21,7 +21,7 @@ namespace failure_kind {
 inline constexpr const char *touching = "touching", *self_contact = "self-contact", *folded = "folded",
                             *wrinkled = "wrinkled", *exit = "exit", *volume = "volume", *step = "step",
                             *unresolved = "unresolved", *not_a_number = "not-a-number", *fold = "fold",
-                            *burst = "burst", *unbounded = "unbounded";
+                            *softening = "softening", *burst = "burst", *unbounded = "unbounded";
 }
 
 // The computation cannot go on (exit code 3). `kind` is one of these words, `advice` says what to try.

@@ -374,7 +374,9 @@ private:
       throw_if_stopped({.row = rows[k],
                         .crosses_itself = gauges_[k].crosses_itself(here),
                         .roughness_limit = roughness_limit_,
-                        .bursts = bursts && k == most_strained(position)});
+                        .bursts = bursts && k == most_strained(position),
+                        .softest = softest_if_elastic(capsules_of(input_)[k]->membrane,
+                                                      dynamics_.scene->membrane_of(k), here)});
     });
     last_accepted_ = position;
   }

@@ -52,7 +52,8 @@ Outcome march_to_end(const Case &input, const Checkpoint &from, const Control &c
 bool may_pass_on_finer_mesh(const Outcome &outcome) {
   return outcome.status == Status::failed &&
          (outcome.failure == failure_kind::wrinkled || outcome.failure == failure_kind::touching ||
-          outcome.failure == failure_kind::unresolved || outcome.failure == failure_kind::step);
+          outcome.failure == failure_kind::unresolved || outcome.failure == failure_kind::softening ||
+          outcome.failure == failure_kind::step);
 }
 
 // The march that is asked for, and the input that it ended with. What fails on a mesh that was chosen from the accuracy

@@ -44,6 +44,10 @@ constexpr std::array table{
                    now.row.dents);
              },
          .advice = "raise membrane.bending_ratio, or mesh.membrane until it resolves the wrinkles"},
+    Stop{.kind = failure_kind::softening,
+         .holds = [](const Instant &now) { return now.softest && softens(*now.softest); },
+         .what = [](const Instant &now) { return softening_text(*now.softest); },
+         .advice = softening_advice},
     Stop{.kind = failure_kind::burst,
          .holds = [](const Instant &now) { return now.bursts; },
          .what =

@@ -1,9 +1,11 @@
 #pragma once
 // The reasons to stop a march before its end, each a line of a table (stops.cpp).
 #include "case/parameters.hpp"
+#include "membrane/softening.hpp"
 #include "observe/gauge.hpp"
 #include "observe/records.hpp"
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -23,6 +25,7 @@ struct Instant {
   bool crosses_itself = false;
   double roughness_limit = std::numeric_limits<double>::infinity(); // beyond it dents are wrinkles
   bool bursts = false;                                              // it has come to what it bears
+  std::optional<SoftestPoint> softest = {}; // unless surface viscosity slows short waves
 };
 
 struct Stop {

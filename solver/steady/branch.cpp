@@ -82,6 +82,7 @@ public:
   // To the next point; true at the end.
   bool advance() {
     branch_->advance();
+    branch_->require_stiffness();
     if (branch_->turned() && !branch_->tangent_has_turned() &&
         refine_mesh(branch_->point_before(), branch_->tangent_before(), branch_->trend_before()))
       return false;

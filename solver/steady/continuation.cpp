@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace capsule {
 namespace {
@@ -165,6 +166,19 @@ double Branch::plain_step() const {
   const auto displacement = tangent_.head(2 * system_->nodes());
   return step_ * std::hypot(displacement.norm() / std::sqrt(static_cast<double>(system_->nodes())),
                             tangent_[tangent_.size() - 1]);
+}
+
+void Branch::require_stiffness() const {
+  const SoftestPoint softest = system_->softest(point_.unknowns);
+  if (!softens(softest))
+    return;
+  const double stiffness_before = std::max(0.0, system_->softest(before_.unknowns).stiffness);
+  const double part = stiffness_before / (stiffness_before - softest.stiffness);
+  throw NumericsFailure(
+      failure_kind::softening,
+      fmt::format("{} (from {} on)", softening_text(softest),
+                  path_.text(before_.parameter + part * (point_.parameter - before_.parameter))),
+      softening_advice);
 }
 
 bool Branch::turned() const {

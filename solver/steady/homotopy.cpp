@@ -31,6 +31,9 @@ constexpr double thinnest = 1e-7;    // from here on the case's own is near enou
 constexpr std::array area_keys{"membrane.dilatation", "membrane.area_modulus"};
 constexpr double area_modulus_to_relax = 100;
 
+// On fewer nodes a law softens later than on many.
+constexpr int nodes_that_show_softening = 100;
+
 // On the finest mesh a stretch above this that has grown since the fold counts as running away, too.
 constexpr double large_stretch = 2;
 constexpr double growth_behind_fold = 1.03;
@@ -52,7 +55,9 @@ public:
       try {
         arrived = follow(path);
       } catch (const NumericsFailure &failure) {
-        if (failure.kind == failure_kind::fold || !can_refine())
+        const bool softens =
+            failure.kind == failure_kind::softening && state_.system->nodes() >= nodes_that_show_softening;
+        if (failure.kind == failure_kind::fold || softens || !can_refine())
           throw;
       }
       if (place_.part < 0) { // the fold that led here was the coarse mesh's own
@@ -107,6 +112,7 @@ private:
       place_.first_step = branch.plain_step();
       try {
         branch.advance();
+        branch.require_stiffness();
       } catch (const NumericsFailure &failure) {
         if (!place_.turned_at.empty() && !can_refine())
           break; // behind the fold, as far as this mesh goes
@@ -258,9 +264,14 @@ Homotopy in_a_flow(double strength, const Case &target, const Control &control) 
   return homotopy;
 }
 
-// What a fold on the way of growing flow says of the case.
-NumericsFailure no_steady_state(const NumericsFailure &fold) {
-  return {failure_kind::fold, fmt::format("no steady state: {}", fold.what()), fold.advice};
+// Whether a branch ends for good: in a fold, or where the membrane's law softens.
+bool ends_branch(const NumericsFailure &failure) {
+  return failure.kind == failure_kind::fold || failure.kind == failure_kind::softening;
+}
+
+// What such an end on the way of growing flow says of the case.
+NumericsFailure no_steady_state(const NumericsFailure &end) {
+  return {end.kind, fmt::format("no steady state: {}", end.what()), end.advice};
 }
 
 // The fold that a growing flow meets before the case's own, if it does: that of a stiff membrane, which few nodes show,
@@ -340,7 +351,7 @@ SteadyState searched(const Case &input, const Control &control, std::vector<std:
       homotopy.vary(flow_key, flow);
       return homotopy.state();
     } catch (const NumericsFailure &failure) { // it may run away, or buckle on the way: other branches tell
-      if (only_flow_is_left && failure.kind == failure_kind::fold)
+      if (only_flow_is_left && ends_branch(failure))
         throw no_steady_state(failure);
       last = failure;
       tried.push_back(
@@ -362,7 +373,7 @@ SteadyState searched(const Case &input, const Control &control, std::vector<std:
       homotopy.vary(flow_key, flow);
       return homotopy.state();
     } catch (const NumericsFailure &failure) {
-      if (only_flow_is_left && failure.kind == failure_kind::fold)
+      if (only_flow_is_left && ends_branch(failure))
         throw no_steady_state(failure);
       if (!first)
         first = failure;

@@ -72,6 +72,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
   const bool given = input.mesh.membrane > 0;
   RefinedState refined{given ? on_mesh(input, input.mesh.membrane, state) : state, {}, ""};
   auto nodes = static_cast<int>(refined.state.system->nodes());
+  refined.state.system->require_stiffness(refined.state.unknowns);
   SeriesRow row = measure(refined.state).row;
   if (given || finer_mesh(nodes) > most_nodes) { // no finer mesh: a coarser one tells the error
     const SeriesRow coarse = measure(on_mesh(input, std::max(3, 3 * nodes / 4), refined.state)).row;
@@ -85,6 +86,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
     nodes = finer_mesh(nodes);
     refined.state = on_mesh(input, nodes, refined.state);
     const SeriesRow before = row;
+    refined.state.system->require_stiffness(refined.state.unknowns);
     row = measure(refined.state).row;
     refined.error_estimate = errors_of(row, before);
     if (agree(row, before, input.accuracy))

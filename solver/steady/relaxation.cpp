@@ -47,6 +47,7 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
     if (error < too_much) {
       shape += change;
       linear = std::move(*next);
+      system.require_stiffness(shape);
       // The way that is left, if the motion goes on to decay as it did: a steep decay may be as far as a poor linearisation, on a
       // coarse mesh, lets the steps grow.
       const double speed = moved / step;

@@ -94,6 +94,16 @@ double SteadySystem::largest_stretch(const Vector &unknowns) const {
       .stretch_meridional.maxCoeff();
 }
 
+SoftestPoint SteadySystem::softest(const Vector &unknowns) const {
+  return softest_point(membrane_, unknowns.head(2 * nodes()));
+}
+
+void SteadySystem::require_stiffness(const Vector &unknowns) const {
+  const SoftestPoint point = softest(unknowns);
+  if (softens(point))
+    throw NumericsFailure(failure_kind::softening, softening_text(point), softening_advice);
+}
+
 void SteadySystem::fit_tube(const Vector &unknowns) {
   if (!pore_)
     return;

@@ -13,6 +13,7 @@
 // derivative of its velocity is that of equal displacements of all.
 // Throws NumericsFailure for shapes that are no capsule in the tube.
 #include "case/case.hpp"
+#include "membrane/softening.hpp"
 #include "scene/scene.hpp"
 #include "steady/linear_motion.hpp"
 #include <optional>
@@ -33,7 +34,10 @@ public:
   Vector initial() const; // unknowns of the capsule before the flow, at about the speed of a rigid sphere
   const Membrane &membrane() const { return membrane_; }
   const Resolution &resolution() const { return resolution_; }
-  double largest_stretch(const Vector &unknowns) const;     // meridional, at the nodes
+  double largest_stretch(const Vector &unknowns) const; // meridional, at the nodes
+  SoftestPoint softest(const Vector &unknowns) const;
+  // Throws NumericsFailure if the membrane's law softens: on finer meshes it does so more.
+  void require_stiffness(const Vector &unknowns) const;
   const std::optional<Pore> &pore() const { return pore_; } // the tube that stands for it
 
   // Builds a longer tube, with more images, if the membrane has come too near to its ends.

@@ -2,6 +2,7 @@
 #include "base/failure.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
+#include "law/skalak.hpp"
 #include "steady/branch.hpp"
 #include "steady/continuation.hpp"
 #include "steady/steady_state.hpp"
@@ -61,6 +62,24 @@ BOOST_AUTO_TEST_CASE(fold_of_a_neo_hookean_capsule) {
       check_near_side(neo_hookean_case(64), fold);
   }
   BOOST_TEST(std::abs(found[0] - found[1]) < 1e-6 * found[0]);
+}
+
+// Skalak's law with C = 0 softens at the rim of a dent. Behind that every mesh has an end of its own.
+BOOST_AUTO_TEST_CASE(a_branch_ends_where_the_law_softens) {
+  Case physics = neo_hookean_case(0);
+  physics.membrane.law = {skalak, {0}};
+  physics.membrane.bending_ratio = 9e-3;
+  physics.capsule.radius = 0.89;
+  physics.capsule.aspect_ratio = 0.68;
+  physics.flow.capillary_number = 0.2;
+  double last[2];
+  for (const int k : {0, 1}) {
+    physics.mesh.membrane = k == 0 ? 72 : 100;
+    const Outcome outcome = follow_branch(physics, "flow.capillary_number", 0.25, {});
+    BOOST_TEST(outcome.failure == "softening");
+    last[k] = outcome.branch.back().parameter;
+  }
+  BOOST_TEST(last[0] == last[1], boost::test_tools::tolerance(0.03));
 }
 
 // A branch that is begun again between a fold and the next point, as on another mesh, finds the fold.

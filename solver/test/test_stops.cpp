@@ -53,6 +53,20 @@ BOOST_AUTO_TEST_CASE(each_reason_stops_and_nothing_else) {
   BOOST_TEST(stopped_by(row) == "unbounded");
 }
 
+BOOST_AUTO_TEST_CASE(a_law_that_softens_stops_a_march) {
+  const SeriesRow row = sound_row();
+  const auto stops_at = [&](double stiffness) {
+    try {
+      throw_if_stopped({.row = row, .softest = SoftestPoint{stiffness, 0.6, 0.9}});
+      return std::string();
+    } catch (const NumericsFailure &failure) {
+      return failure.kind;
+    }
+  };
+  BOOST_TEST(stops_at(1e-9) == "");
+  BOOST_TEST(stops_at(-1e-9) == "softening");
+}
+
 // Three dents, and rough: neither alone. What counts as rough is the march's, and the companion has no limit.
 BOOST_AUTO_TEST_CASE(wrinkles_are_dents_that_the_mesh_does_not_resolve) {
   SeriesRow row = sound_row();
