@@ -1,20 +1,59 @@
 #pragma once
-// A case's steady state from nothing. At first the undeformed capsule relaxes in the tube with a stiff membrane, which is
-// softened then (relaxation.hpp); if need be in a weaker flow, from which a branch (continuation.hpp) leads to the case's
-// own. Where it does not come to rest at all, branches lead from a small stiff sphere in a weak flow to the case's
-// capsule, one key after the other, the capillary number last. The mesh gets finer on the way where it must.
-// A flow in which the stiff membrane runs away may be too strong: then the fold of a stiffer membrane, which few
-// nodes show, is followed to the case's (fold_curve.hpp) before anything else is tried.
-// A train begins with one capsule alone.
+// The way from a state that is easily found to that of a case, one key after the other: branches (continuation.hpp), followed
+// through folds, on meshes that get finer where they must.
+#include "case/key_path.hpp"
 #include "observe/outcome.hpp"
+#include "steady/continuation.hpp"
 #include "steady/mesh_change.hpp"
+#include <algorithm>
+#include <string>
+#include <utility>
 
 namespace capsule {
 
-// Throws NumericsFailure, of the kind "fold" when there is no steady state because the branch of growing capillary
-// numbers turns back and the membrane runs away behind the fold: the text says where. Any other turn says nothing
-// about the case, and is "unresolved"; "unbounded" where the capsule ran away in the last flow that was tried. Throws
-// Interrupted.
-SteadyState by_homotopy(const Case &input, const Control &control);
+class Homotopy {
+public:
+  // `begin` is the state of `now`, which differs from the target in the keys to be varied.
+  Homotopy(const Case &target, const Case &now, SteadyState begin, const Control &control)
+      : target_(target), now_(now), control_(control), state_(std::move(begin)) {}
+
+  // Takes one key to a value. Throws NumericsFailure: "fold" where the branch turns for good and the membrane runs away behind
+  // it, "softening" where its law does; other kinds say nothing about the case. Throws what it asks of `control`.
+  void vary(const std::string &key, double to);
+
+  const SteadyState &state() const { return state_; }
+
+  // Where the branch of the last key has turned for good.
+  struct Fold {
+    SteadyState state;
+    double part = 0;
+    Vector tangent;
+  };
+  const Fold &fold() const { return place_.fold; }
+
+private:
+  int most() const { return target_.mesh.membrane > 0 ? target_.mesh.membrane : most_nodes; }
+  int next_mesh() const { return std::min(finer_mesh(static_cast<int>(state_.system->nodes())), most()); }
+  bool can_refine() const { return state_.system->nodes() < most(); }
+  void begin_path();
+  void refine_at(const Case &input);
+  bool follow(const KeyPath &path);
+
+  // How far the branch of one key has been followed.
+  struct Place {
+    double part = 0;
+    Vector direction; // in which it goes on
+    Branch::Trend trend = Branch::Trend::grows;
+    double first_step = 0.2;
+    std::string turned_at; // the farthest fold, while the branch is behind it
+    double farthest = 0, stretch_at_fold = 0;
+    Fold fold; // the farthest one
+  };
+
+  Case target_, now_;
+  const Control &control_;
+  SteadyState state_;
+  Place place_;
+};
 
 } // namespace capsule

@@ -1,14 +1,14 @@
 #include "steady/steady_state.hpp"
 #include "base/failure.hpp"
 #include "steady/from_profile.hpp"
-#include "steady/homotopy.hpp"
 #include "steady/refinement.hpp"
+#include "steady/search.hpp"
 #include <fmt/format.h>
 
 namespace capsule {
 
 SteadyState find_steady(const Case &input, const std::optional<Profile> &from, const Control &control) {
-  return from ? from_profile(input, *from, control) : by_homotopy(input, control);
+  return from ? from_profile(input, *from, control) : search_steady(input, control);
 }
 
 Outcome steady(const Case &input, const std::optional<Profile> &from, const Control &control) {

@@ -7,7 +7,7 @@
 
 namespace capsule {
 
-// On a first mesh. Throws what by_homotopy and from_profile throw.
+// On a first mesh. Throws what search_steady and from_profile throw.
 SteadyState find_steady(const Case &input, const std::optional<Profile> &from, const Control &control);
 
 // status: steady, failed or interrupted. Series and profiles of the outcome hold one entry. Nothing is saved on the way.

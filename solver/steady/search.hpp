@@ -1,0 +1,20 @@
+#pragma once
+// A case's steady state from nothing. At first the undeformed capsule relaxes in the tube with a stiff membrane, which is
+// softened then (relaxation.hpp); if need be in a weaker flow, from which a branch (continuation.hpp) leads to the case's
+// own. Where it does not come to rest at all, branches lead (homotopy.hpp) from a small stiff sphere in a weak flow to the case's
+// capsule, one key after the other, the capillary number last. The mesh gets finer on the way where it must.
+// A flow in which the stiff membrane runs away may be too strong: then the fold of a stiffer membrane, which few
+// nodes show, is followed to the case's (fold_curve.hpp) before anything else is tried.
+// A train begins with one capsule alone.
+#include "observe/outcome.hpp"
+#include "steady/mesh_change.hpp"
+
+namespace capsule {
+
+// Throws NumericsFailure, of the kind "fold" when there is no steady state because the branch of growing capillary
+// numbers turns back and the membrane runs away behind the fold: the text says where. Any other turn says nothing
+// about the case, and is "unresolved"; "unbounded" where the capsule ran away in the last flow that was tried. Throws
+// Interrupted.
+SteadyState search_steady(const Case &input, const Control &control);
+
+} // namespace capsule
