@@ -240,8 +240,10 @@ expect 2 '^--set:1:13: error: a steady state under constant pressure needs a por
   "$capsule" steady file.toml --set flow.drive=pressure --set pore.exit_x=1.5
 expect 2 '^--set:1:12: error: an infinite train has no pore that a pressure drives' \
   "$capsule" steady file.toml --set flow.drive=pressure --set flow.period=3
-expect 2 '^--set:1:17: error: a steady state is of one capsule, or of a train of equal ones' \
-  "$capsule" steady file.toml --set "capsule.start_x=[1, -3]"
+expect 2 '^--set:1:16: error: a steady state is of one capsule, or of a train of equal ones' \
+  "$capsule" steady file.toml --set "capsule.radius=[0.7, 0.8]" --set "capsule.start_x=[1, -3]"
+expect 2 '^give one value for all of the train' \
+  "$capsule" steady file.toml --set "capsule.radius=[0.7, 0.8]" --set flow.period=3
 expect 2 '^--set:1:13: error: flow.period = 0.9 of the tube holds less than one capsule' \
   "$capsule" steady file.toml --set flow.period=0.9
 expect 2 "^error: no branch along 'flow.period': the case has no train" \

@@ -184,7 +184,7 @@ struct Checks {
     const Case &c = physics;
     if (task.motion)
       chosen.complain({"flow.period"}, "an infinite train is computed as a steady state only",
-                      "`capsule steady` and `capsule branch` do; leave out flow.period to march one capsule");
+                      "`capsule steady` and `capsule branch` do; leave out flow.period to march in time");
     const double shortest = 4.0 / 3 * std::pow(c.capsule.radius, 3); // that holds the volume
     if (c.flow.period <= shortest)
       chosen.complain(
@@ -323,15 +323,16 @@ void check_capsules(const Chosen &chosen, const Case &physics, const Task &task)
   }
   // The first list says that there are several.
   std::vector<std::string> lists;
-  for (const Key &key : keys())
-    if (const GivenValue *given = chosen.given(key.name);
-        key.of_each_capsule && given != nullptr && entries_of(given->value).size() > 1)
-      lists.push_back(key.name);
+  for (const Assignment &assignment : chosen.reader.assignments)
+    if (const std::string &name = assignment.key->name;
+        assignment.key->of_each_capsule && entries_of(chosen.given(name)->value).size() > 1)
+      lists.push_back(name);
   const std::vector<const Case *> capsules = capsules_of(physics);
   if (!task.motion)
-    chosen.complain({"capsule.start_x", flow_key},
-                    "a steady state is of one capsule, or of a train of equal ones",
-                    "flow.period is the distance of those; `capsule run` marches several");
+    chosen.complain(lists, "a steady state is of one capsule, or of a train of equal ones",
+                    physics.flow.period > 0
+                        ? "give one value for all of the train"
+                        : "flow.period is the distance of those; `capsule run` marches several");
   if (physics.numerics == Numerics::paper)
     chosen.complain({"numerics"}, "numerics = \"paper\" has one capsule",
                     "several capsules need numerics = \"standard\"");

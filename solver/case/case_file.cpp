@@ -214,6 +214,8 @@ bool lists_agree(const Chosen &chosen) {
     const GivenValue &given = assignment.values[chosen.selection[i]];
     const std::size_t values =
         assignment.key->of_each_capsule ? entries_of(given.value).size() : std::size_t{1};
+    if (values == 0) // the key has complained
+      return false;
     if (values == 1 || values == capsules)
       continue;
     chosen.reader.complain(

@@ -3,12 +3,14 @@
 #include "base/text.hpp"
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <string_view>
+#include <system_error>
 
 namespace capsule {
 namespace {
@@ -227,7 +229,7 @@ private:
   Node named() {
     std::string name = word();
     if (take('#')) // of which capsule
-      name += fmt::format("#{}", whole_number());
+      name += fmt::format("#{}", capsule_number());
     if (take('(')) {
       std::vector<Node> arguments{sum()};
       while (take(','))
@@ -274,13 +276,13 @@ private:
     return std::string(text_.substr(begin, at_ - begin));
   }
 
-  std::string_view whole_number() {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && is_digit(text_[at_]))
-      ++at_;
-    if (at_ == begin)
-      fail("the number of a capsule is missing");
-    return text_.substr(begin, at_ - begin);
+  std::size_t capsule_number() {
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), number);
+    if (error != std::errc{} || number < 2)
+      fail("behind '#' the number of a capsule behind the leading one, 2 or more, is missing");
+    at_ = static_cast<std::size_t>(end - text_.data());
+    return number;
   }
 
   double signed_number() { return take('-') ? -number() : number(); }

@@ -216,6 +216,9 @@ Values RunTable::values_in(const RunResult &run, const Reference &reference) con
   const std::size_t mark = reference.name.find('#');
   const std::string quantity = reference.name.substr(0, mark);
   const std::string number = mark == std::string::npos ? "" : reference.name.substr(mark + 1);
+  const std::size_t capsules = 1 + run.input.physics.followers.size();
+  if (!number.empty() && std::stoul(number) > capsules)
+    throw NoValue(fmt::format("the run has {}", counted(capsules, "capsule")));
   const auto table = [&](const char *name) {
     return run.directory / fmt::format("{}{}.csv", name, number.empty() ? "" : "-" + number);
   };

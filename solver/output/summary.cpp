@@ -76,8 +76,12 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   json["failure"] = outcome.failure.empty() ? Json() : Json(outcome.failure);
   json["message"] = outcome.message.empty() ? Json() : Json(outcome.message);
   const std::vector<SeriesRow> &series = outcome.last.series;
-  for (std::size_t k = 0; k < outcome.last.followers.size(); ++k)
-    json["capsules"][std::to_string(k + 2)] = end_of(outcome.last.followers[k].series);
+  for (std::size_t k = 0; k < outcome.last.followers.size(); ++k) {
+    Json &follower = json["capsules"][std::to_string(k + 2)];
+    follower = end_of(outcome.last.followers[k].series);
+    if (in_physical_units(physics, outcome))
+      follower["physical"] = physical_json(physics.followers.at(k), follower);
+  }
   const bool has_pore = physics.flow.type == FlowType::pore;
   const auto applies = [&](const ReportedQuantity &quantity) { return has_pore || !quantity.of_the_pore; };
   for (const ReportedQuantity &quantity : reported_quantities())

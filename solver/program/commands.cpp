@@ -230,14 +230,19 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
   for (const auto &[input, directory, summary] : results) {
     if (!summary || summary->status != word_of(Status::reached))
       continue;
-    const auto at_the_end = [&quantities = summary->quantities](const char *name) {
-      const auto found = quantities.find(name);
-      return found == quantities.end() ? 0 : found->second;
-    };
-    const double moving = std::max(at_the_end("max_axial_residual"), at_the_end("max_radial_velocity"));
     const PoreShape shape = input.physics.pore.shape;
-    const bool in_the_mouth = shape == PoreShape::hyperbolic && at_the_end("x_g") < at_the_end("length") / 2;
-    if (moving <= input.physics.accuracy || in_the_mouth || shape == PoreShape::two_mouths)
+    double moving = 0;
+    for (std::size_t k = 0; k <= input.physics.followers.size(); ++k) {
+      const auto at_the_end = [&, &quantities = summary->quantities](const char *name) {
+        const auto found = quantities.find(name + capsule_mark(k));
+        return found == quantities.end() ? 0 : found->second;
+      };
+      const bool in_the_mouth =
+          shape == PoreShape::hyperbolic && at_the_end("x_g") < at_the_end("length") / 2;
+      if (!in_the_mouth)
+        moving = std::max({moving, at_the_end("max_axial_residual"), at_the_end("max_radial_velocity")});
+    }
+    if (moving <= input.physics.accuracy || shape == PoreShape::two_mouths)
       continue;
     ++unsteady;
     fastest = std::max(fastest, moving);

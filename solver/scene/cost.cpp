@@ -4,14 +4,23 @@
 #include "scene/resolution.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace capsule {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+} // namespace
 
 double estimated_seconds(const Case &physics) {
   const Resolution chosen = choose_resolution(physics);
+  const UntilSpec &until = physics.until;
+  const double last_start = capsules_of(physics).back()->capsule.start_x;
+  double way = until.x_g.value_or(until.last_x_g ? infinite : 11.84) - physics.capsule.start_x;
+  way = std::min(way, until.last_x_g.value_or(infinite) - last_start);
   // An entrance of the paper takes 1.6 units of time per length.
-  const double way = physics.until.x_g.value_or(11.84) - physics.capsule.start_x;
-  const double duration = std::min(1.6 * way, physics.until.time.value_or(1.6 * way));
+  const double duration = std::min(1.6 * way, until.time.value_or(infinite));
   if (physics.numerics == Numerics::paper) {
     // Nearly all of a step is the LU decomposition of eq. 29.
     const double unknowns = chosen.membrane_nodes + std::max(physics.mesh.wall, 120);

@@ -357,6 +357,8 @@ BOOST_AUTO_TEST_CASE(unknown_keys) {
   check_errors("radius = 0.5\n" + sphere, {"1:1: error: unknown key 'radius'"});
   check_errors(sphere + "[floww]\nx = 1\n",
                {"9:1: error: unknown section 'floww'", "10:1: error: unknown key 'flow.x'"});
+  check_errors(sphere + "viscosity_ratio = []\n",
+               {"9:19: error: flow.viscosity_ratio must be a number, not a list"});
   check_errors(sphere + "[floww]\n", {"9:1: error: unknown section 'floww'"});
   check_errors("[elsewhere]\nx = 1\n" + sphere.substr(sphere.find('\n') + 1),
                {"2:1: error: unknown key 'elsewhere.x'"});

@@ -32,6 +32,15 @@ BOOST_AUTO_TEST_CASE(marches_that_end_before_they_are_steady_are_remarked) {
   }
   results[2].summary->quantities["x_g"] = 0.81;
   BOOST_TEST(unsteady_remark({results[2]}) != "");
+  // A follower moves, too, but for one in the mouth.
+  RunResult pair = results[0];
+  pair.input.physics.accuracy = 1e-4;
+  pair.input.physics.followers.resize(1);
+  pair.summary->quantities["max_axial_residual#2"] = 3e-4;
+  pair.summary->quantities["x_g#2"] = -1;
+  BOOST_TEST(unsteady_remark({pair}) == "");
+  pair.summary->quantities["x_g#2"] = 5;
+  BOOST_TEST(unsteady_remark({pair}).find("with 0.0003") != std::string::npos);
   results[2].input.physics.pore.shape = PoreShape::none;
   results[2].input.physics.until.x_g.reset();
   results[2].input.physics.until.time = 3;

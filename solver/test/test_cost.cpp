@@ -16,6 +16,18 @@ BOOST_AUTO_TEST_CASE(costs_grow_with_what_there_is_to_do) {
   BOOST_TEST(standard > 0);
   physics.until.time = 10;
   BOOST_TEST(estimated_seconds(physics) == 2 * standard, tt::tolerance(1e-12));
+  physics.until = {};
+  physics.until.last_x_g = 2;
+  physics.followers = {physics};
+  physics.followers[0].capsule.start_x = -6;
+  const double of_two = estimated_seconds(physics);
+  physics.until = {};
+  physics.until.x_g = physics.capsule.start_x + 8; // as long a way
+  BOOST_TEST(estimated_seconds(physics) == of_two, tt::tolerance(1e-12));
+  physics.followers.clear();
+  BOOST_TEST(estimated_seconds(physics) == of_two / 2, tt::tolerance(1e-12));
+  physics.until = {};
+  physics.until.time = 10;
   physics.accuracy = 1e-5;
   BOOST_TEST(estimated_seconds(physics) > 2 * standard);
   physics.time = {.scheme = Scheme::euler, .step = 1e-3};

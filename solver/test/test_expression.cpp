@@ -3,6 +3,7 @@
 #include "compare/expression.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <fmt/format.h>
 
 using namespace capsule;
 
@@ -111,5 +112,10 @@ BOOST_AUTO_TEST_CASE(mistakes) {
   check_mistake("a{k=1", "'}' is missing at character 3 of 'a{k=1'");
   check_mistake("a@x_g", "'=' is missing at character 6 of 'a@x_g'");
   check_mistake("a@x_g=3..2", "the second end is not beyond the first at character 11 of 'a@x_g=3..2'");
+  for (const char *text : {"a#1", "a#0", "a#", "a#99999999999999999999"})
+    check_mistake(text,
+                  fmt::format("behind '#' the number of a capsule behind the leading one, 2 or more, is "
+                              "missing at character 3 of '{}'",
+                              text));
   check_mistake("a@=3", "a name is missing at character 3 of 'a@=3'");
 }

@@ -1,6 +1,7 @@
 // Several capsules in one pore: rigid spheres known from elsewhere as the limit of weak flows, one capsule alone as the
 // limit of long distances, quadrature across narrow gaps, and what a case, a march and its files make of them.
 #include "base/failure.hpp"
+#include "base/json_file.hpp"
 #include "case/case_file.hpp"
 #include "case/identity.hpp"
 #include "compare/run_values.hpp"
@@ -253,13 +254,20 @@ BOOST_AUTO_TEST_CASE(names_of_swept_lists) {
 
 BOOST_AUTO_TEST_CASE(files_and_expressions) {
   const TemporaryDirectory directory;
-  Case physics = in_a_tube(neo_hookean, 0.6, {1, -1});
+  Case physics = with(in_a_tube(neo_hookean, 0.6, {1, -1}), [](Case &c) {
+    c.physical.tube_radius = {5e-6};
+    c.physical.viscosity = {1e-3};
+    c.physical.flow_rate = {1e-13};
+    c.physical.shear_modulus = {2e-5};
+  });
+  physics.followers[0].physical.shear_modulus = {3e-5};
   Outcome outcome;
   outcome.status = Status::reached;
   SeriesRow ahead, behind;
   ahead.pressure_share = 3;
   behind.x_g = -2;
   behind.spacing = 2.5;
+  behind.max_tension = 0.1;
   outcome.last.series = {ahead};
   const Profile shape = random_checkpoint().profiles.at(0);
   outcome.last.followers = {{{behind}, {shape}}};
@@ -280,7 +288,14 @@ BOOST_AUTO_TEST_CASE(files_and_expressions) {
   BOOST_TEST(value("x_g#2") == -2);
   BOOST_TEST(value("spacing#2@time=0") == 2.5);
   BOOST_TEST(value("pressure_share") == 3);
+  BOOST_CHECK_EXCEPTION(value("x_g#3"), NoValue, [](const NoValue &reason) {
+    return reason.what() == std::string("the run has 2 capsules");
+  });
   BOOST_TEST(std::abs(value("mean(x#2)") - shape.x.mean()) < 1e-12);
+  const auto summary = read_json(directory.path / "summary.json").value();
+  const auto &in_si = summary.at("capsules").at("2").at("physical");
+  BOOST_TEST(in_si.at("max_tension [N/m]").get<double>() == 3e-6, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(in_si.at("x_g [m]").get<double>() == -1e-5, boost::test_tools::tolerance(1e-12));
   // All of it is the run's own, and goes with it.
   require_free(directory.path);
   remove_results(directory.path);
