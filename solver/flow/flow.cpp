@@ -29,9 +29,9 @@ NodalLayers nodal_layers(const Interaction &interaction) {
 }
 
 Flow::Flow(Wall wall, MembraneMesh mesh, const FlowParameters &parameters, double solver_tolerance)
-    : wall_(std::move(wall)), mesh_(std::move(mesh)), drive_(parameters.drive),
-      image_shifts_(parameters.image_shifts), beta_(Vector::Ones(2 * mesh_.nodes)),
-      excess_viscosity_(Vector::Zero(2 * mesh_.nodes)), solver_tolerance_(solver_tolerance) {
+    : wall_(std::move(wall)), mesh_(std::move(mesh)), drive_(parameters.drive), images_(parameters.images),
+      beta_(Vector::Ones(2 * mesh_.nodes)), excess_viscosity_(Vector::Zero(2 * mesh_.nodes)),
+      solver_tolerance_(solver_tolerance) {
   const std::vector<double> &ratios = parameters.viscosity_ratios;
   if (!ratios.empty() && ratios.size() != mesh_.parts.size())
     throw std::invalid_argument("each membrane has a viscosity ratio");
@@ -53,12 +53,16 @@ Interaction Flow::interact(const Vector &position) const {
 }
 
 Interaction Flow::interact(const Vector &position, Layers layers) const {
+  return interact(position, layers, images_);
+}
+
+Interaction Flow::interact(const Vector &position, Layers layers, std::span<const Image> images) const {
   // Images are felt wherever they are: a train has the whole wall.
-  return {image_shifts_.empty() ? wall_.felt_by(mesh_, position) : wall_.shared_whole(),
+  return {images.empty() ? wall_.felt_by(mesh_, position) : wall_.shared_whole(),
           mesh_,
           position,
           layers,
-          image_shifts_,
+          images,
           drive_};
 }
 
@@ -219,7 +223,7 @@ Vector Flow::outer_velocity(const Targets &points, const Interaction &interactio
                              mesh_,
                              interaction.shape().position,
                              density.size() > 0 ? Layers::both : Layers::single,
-                             image_shifts_,
+                             images_,
                              drive_};
   return state.flow_rate * wall().base_velocity(points) +
          anywhere.velocity_at(points, stokeslet_factor * load_with_friction(interaction, f, state.velocity),

@@ -30,7 +30,7 @@ struct FlowParameters {
   std::vector<double> viscosity_ratios = {};              // lambda of each membrane; empty: 1
   std::vector<SurfaceViscosity> surface_viscosities = {}; // of each membrane; empty: none
   Drive drive = {};
-  std::vector<double> image_shifts = {};
+  std::vector<Image> images = {};
 };
 
 // Both layers on nodal densities with what the wall answers, 2N x 2N.
@@ -47,13 +47,14 @@ public:
 
   const Wall &wall() const { return wall_.whole(); }
   const MembraneMesh &mesh() const { return mesh_; }
-  void place_images(std::vector<double> shifts) { image_shifts_ = std::move(shifts); }
+  void place_images(std::vector<Image> images) { images_ = std::move(images); }
   void drive_by(Drive drive) { drive_ = drive; }
 
   // Everything that depends on the position alone, with the layers that this flow needs or with both. Refers to
   // this flow.
   Interaction interact(const Vector &position) const;
   Interaction interact(const Vector &position, Layers layers) const;
+  Interaction interact(const Vector &position, Layers layers, std::span<const Image> images) const;
   FlowState solve(const Interaction &interaction, const Vector &f, Recycled &recycled) const;
   // Each membrane's share of Delta P by the reciprocal theorem.
   Vector reciprocal_pressure_drops(const Interaction &interaction, const Vector &f, const FlowState &state,
@@ -89,7 +90,7 @@ private:
   CompressedWall wall_;
   MembraneMesh mesh_;
   Drive drive_;
-  std::vector<double> image_shifts_;
+  std::vector<Image> images_;
   Vector beta_, excess_viscosity_; // (1 + lambda)/2 and lambda - 1 of each component, 2N
   bool equal_viscosities_ = true;
   std::vector<SurfaceViscosity> surface_viscosities_; // empty where no membrane is viscous

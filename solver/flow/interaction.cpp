@@ -44,9 +44,9 @@ Curve moved(Curve curve, double shift) {
 } // namespace
 
 Interaction::Interaction(std::shared_ptr<const Wall> wall, const MembraneMesh &mesh, const Vector &position,
-                         Layers layers, std::span<const double> image_shifts, Drive drive)
-    : wall_(std::move(wall)), mesh_(&mesh), image_shifts_(image_shifts.begin(), image_shifts.end()),
-      drive_(drive), shape_(shape_at(mesh, position)) {
+                         Layers layers, std::span<const Image> images, Drive drive)
+    : wall_(std::move(wall)), mesh_(&mesh), images_(images.begin(), images.end()), drive_(drive),
+      shape_(shape_at(mesh, position)) {
   assemble(ring_stokeslet, shape_.targets, &mesh.self, single_);
   if (layers == Layers::both)
     assemble(ring_stresslet, shape_.targets, &mesh.self, double_);
@@ -67,9 +67,9 @@ void Interaction::assemble(const RingKernel &kernel, const Targets &targets, con
                            RowMatrix &matrix) const {
   assemble_layer(kernel, targets, shape_.panels, self, mesh_->near, matrix);
   RowMatrix image;
-  for (const double shift : image_shifts_) {
+  for (const auto &[shift, amplitude] : images_) {
     assemble_layer(kernel, targets, moved(shape_.panels, shift), nullptr, mesh_->near, image);
-    matrix += image;
+    matrix += amplitude * image;
   }
 }
 
@@ -77,18 +77,18 @@ void Interaction::couple_to_wall(Layers layers) {
   stokeslets_from_wall(*wall_, shape_.nodes, from_wall_);
   if (layers == Layers::both)
     stresslets_at_wall(*wall_, shape_.nodes, double_at_wall_);
-  if (image_shifts_.empty())
+  if (images_.empty())
     return;
   from_wall_to_images_ = RowMatrix::Zero(from_wall_.rows(), from_wall_.cols());
   RowMatrix image = from_wall_to_images_;
-  for (const double shift : image_shifts_) {
+  for (const auto &[shift, amplitude] : images_) {
     const Curve nodes = moved(shape_.nodes, shift);
     stokeslets_from_wall(*wall_, nodes, image);
-    from_wall_to_images_ += image;
+    from_wall_to_images_ += amplitude * image;
     if (layers == Layers::both) {
       RowMatrix stresslets;
       stresslets_at_wall(*wall_, nodes, stresslets);
-      double_at_wall_ += stresslets;
+      double_at_wall_ += amplitude * stresslets;
     }
   }
 }
@@ -135,9 +135,9 @@ void Interaction::add_near_rows(Layers layers) {
   };
   std::vector<Eigen::Index> near;
   for (Eigen::Index i = 0; i < wall.size(); ++i)
-    if (near_to_membranes(wall.x[i], wall.r[i]) ||
-        std::any_of(image_shifts_.begin(), image_shifts_.end(),
-                    [&](double shift) { return near_to_membranes(wall.x[i] - shift, wall.r[i]); }))
+    if (near_to_membranes(wall.x[i], wall.r[i]) || std::ranges::any_of(images_, [&](const Image &image) {
+          return near_to_membranes(wall.x[i] - image.shift, wall.r[i]);
+        }))
       near.push_back(i);
   if (near.empty())
     return;
@@ -154,9 +154,9 @@ void Interaction::couple_to_outlet() {
   const Outlet &outlet = wall_->outlet();
   const Eigen::Index n = mesh_->nodes;
   to_outlet_ = outlet.row(ring_stokeslet, rings_of(shape_.nodes, 0, n));
-  for (const double shift : image_shifts_) {
+  for (const auto &[shift, amplitude] : images_) {
     const Curve nodes = moved(shape_.nodes, shift);
-    to_outlet_ += outlet.row(ring_stokeslet, rings_of(nodes, 0, n));
+    to_outlet_ += amplitude * outlet.row(ring_stokeslet, rings_of(nodes, 0, n));
   }
   const RowMatrix single = outlet.single_layer(shape_.targets);
   auto column = from_wall_.col(wall_->outlet_unknown());
@@ -178,7 +178,7 @@ Vector Interaction::single_at_wall(const Vector &density) const {
     velocity.segment(first, p) += force[node] * block.row(0) + force[n + node] * block.row(2);
     velocity.segment(radial + first, p) += force[node] * block.row(1) + force[n + node] * block.row(3);
   }
-  if (!image_shifts_.empty())
+  if (!images_.empty())
     velocity += from_wall_to_images_.transpose() * force;
   velocity[wall_->outlet_unknown()] = to_outlet_.dot(force);
   if (!near_row_.empty())
@@ -206,7 +206,7 @@ Matrix Interaction::single_at_wall() const {
     result.col(node).segment(radial + first, p) += block.row(1);
     result.col(n + node).segment(radial + first, p) += block.row(3);
   }
-  if (!image_shifts_.empty())
+  if (!images_.empty())
     result += from_wall_to_images_.transpose();
   result.row(wall_->outlet_unknown()) = to_outlet_;
   result *= shape_.nodes.area.replicate(2, 1).asDiagonal();

@@ -5,8 +5,8 @@
 //   Membranes and wall act on each other through one matrix of kernels between nodes and wall points: the kernel
 // is symmetric, the wall's panels and the rule on the nodes are the weights. Pairs that are too near for a rule have
 // entries of their own.
-//   Images are copies of the membranes with the same densities, shifted along the axis: they add to the velocity, but there
-// are no equations at their nodes. A train of equal capsules is one of them with its images.
+//   Images are copies of the membranes, shifted along the axis, with the same densities times an amplitude: they add to the
+// velocity, but there are no equations at their nodes. A train of equal capsules is one of them with its images.
 //   The flow rate falls by Delta P over the drive's resistance: Q = 1 - Delta P/resistance. A pump that keeps the flow
 // rate has an infinite one; constant pressure between the pore's ends is the resistance of the empty pore,
 // Wall::base_pressure_drop. Throws nothing.
@@ -19,6 +19,10 @@ namespace capsule {
 
 enum class Layers { single, both };
 
+struct Image {
+  double shift = 0, amplitude = 1;
+};
+
 struct Drive {
   double resistance = std::numeric_limits<double>::infinity();
 };
@@ -27,7 +31,7 @@ struct Drive {
 class Interaction {
 public:
   Interaction(std::shared_ptr<const Wall> wall, const MembraneMesh &mesh, const Vector &position,
-              Layers layers, std::span<const double> image_shifts = {}, Drive drive = {});
+              Layers layers, std::span<const Image> images = {}, Drive drive = {});
 
   const Wall &wall() const { return *wall_; }
   const MembraneMesh &mesh() const { return *mesh_; }
@@ -68,13 +72,13 @@ private:
 
   std::shared_ptr<const Wall> wall_;
   const MembraneMesh *mesh_;
-  std::vector<double> image_shifts_;
+  std::vector<Image> images_;
   Drive drive_;
   MembraneShape shape_;
   Vector base_velocity_;
   RowMatrix single_, double_;
   RowMatrix from_wall_;           // to the nodes from the forces of wall points and P'
-  RowMatrix from_wall_to_images_; // the same at the images, summed; empty without images
+  RowMatrix from_wall_to_images_; // the same at the images, times amplitudes, summed; empty without images
   struct Difference {             // between a kernel and what stands in from_wall_
     Eigen::Index node, first_point;
     KernelBlock block;

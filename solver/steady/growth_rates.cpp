@@ -28,14 +28,26 @@ bool grows_more(const std::complex<double> &a, const std::complex<double> &b) {
   return a.real() > b.real();
 }
 
-Eigen::VectorXcd all_growth_rates(const SteadySystem::Linearisation &linear, double viscosity_ratio) {
+// What small motions keep, centre and volume, and the velocities that correct it: the frame's and the slack's. Neighbours
+// that are opposed see the centre move.
+struct Border {
+  Matrix constraints; // rows
+  Matrix velocities;  // columns
+};
+
+Border border_of(const SteadySystem::Linearisation &linear, Neighbours neighbours) {
   const Eigen::Index n2 = linear.double_layer.rows();
-  const Matrix constraints = linear.jacobian.bottomLeftCorner(2, n2);
-  const Matrix border = linear.jacobian.topRightCorner(n2, 2);
+  const Eigen::Index kept = neighbours == Neighbours::alike ? 2 : 1; // the last ones
+  return {linear.jacobian.leftCols(n2).bottomRows(kept), linear.jacobian.topRows(n2).rightCols(kept)};
+}
+
+Eigen::VectorXcd all_growth_rates(const SteadySystem::Linearisation &linear, const Border &border,
+                                  double viscosity_ratio) {
+  const auto &[constraints, velocities] = border;
   Matrix motion = small_motion(linear, viscosity_ratio);
-  motion -= border * (constraints * border).partialPivLu().solve(constraints * motion);
+  motion -= velocities * (constraints * velocities).partialPivLu().solve(constraints * motion);
   const Matrix directions = Eigen::HouseholderQR<Matrix>(constraints.transpose()).householderQ();
-  const auto allowed = directions.rightCols(n2 - 2);
+  const auto allowed = directions.rightCols(motion.cols() - constraints.rows());
   Eigen::VectorXcd rates =
       Eigen::EigenSolver<Matrix>(allowed.transpose() * motion * allowed, false).eigenvalues();
   std::sort(rates.begin(), rates.end(), grows_more);
@@ -44,13 +56,15 @@ Eigen::VectorXcd all_growth_rates(const SteadySystem::Linearisation &linear, dou
 
 } // namespace
 
-Matrix small_motion(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio) {
-  return small_motion(system.linearise(unknowns), viscosity_ratio);
+Matrix small_motion(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
+                    Neighbours neighbours) {
+  return small_motion(system.linearise(unknowns, neighbours), viscosity_ratio);
 }
 
-Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unknowns,
-                                  double viscosity_ratio) {
-  return all_growth_rates(system.linearise(unknowns), viscosity_ratio);
+Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
+                                  Neighbours neighbours) {
+  const SteadySystem::Linearisation linear = system.linearise(unknowns, neighbours);
+  return all_growth_rates(linear, border_of(linear, neighbours), viscosity_ratio);
 }
 
 // Arnoldi's method on the inverse of the motion. The inverse maps a rate of displacement to the displacement that
@@ -58,21 +72,26 @@ Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unkn
 // along which centre and volume are corrected, is a velocity and is multiplied by the velocity's operator for the other
 // viscosity ratio. A growing motion is alone on its side of the inverse's spectrum and shows early, but it need not
 // be the one that grows fastest: then all rates are computed.
-Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio) {
+Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
+                              Neighbours neighbours) {
   constexpr Eigen::Index most_vectors = 80;
   constexpr double converged = 1e-8, visible = 0.1; // relative residuals of an eigenvalue
   const Eigen::Index n2 = 2 * system.nodes();
-  const SteadySystem::Linearisation linear = system.linearise(unknowns);
+  const SteadySystem::Linearisation linear = system.linearise(unknowns, neighbours);
   const Matrix on_velocity = velocity_operator(linear, viscosity_ratio);
-  Matrix bordered = linear.jacobian;
-  bordered.topRightCorner(n2, 2) = on_velocity * linear.jacobian.topRightCorner(n2, 2);
+  const Border border = border_of(linear, neighbours);
+  const Eigen::Index size_of_all = n2 + border.constraints.rows();
+  Matrix bordered = Matrix::Zero(size_of_all, size_of_all);
+  bordered.topLeftCorner(n2, n2) = linear.jacobian.topLeftCorner(n2, n2);
+  bordered.topRightCorner(n2, border.velocities.cols()) = on_velocity * border.velocities;
+  bordered.bottomLeftCorner(border.constraints.rows(), n2) = border.constraints;
   const Eigen::PartialPivLU<Matrix> factors(bordered);
   const auto inverse = [&](const Vector &rate) -> Vector {
-    Vector right = Vector::Zero(n2 + 2);
+    Vector right = Vector::Zero(size_of_all);
     right.head(n2) = on_velocity * rate;
     return factors.solve(right).head(n2);
   };
-  const Eigen::Index m = std::min(most_vectors, n2 - 2);
+  const Eigen::Index m = std::min(most_vectors, 2 * n2 - size_of_all);
   Matrix basis(n2, m + 1);
   Matrix hessenberg = Matrix::Zero(m + 1, m);
   const auto zeta = system.membrane().basis.nodes.array();
@@ -101,7 +120,7 @@ Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns
     const std::complex<double> value = eigen.eigenvalues()[k];
     const double residual = hessenberg(size, size - 1) * std::abs(eigen.eigenvectors()(size - 1, k));
     if (value.real() > 0 && residual < visible * std::abs(value))
-      return all_growth_rates(linear, viscosity_ratio);
+      return all_growth_rates(linear, border, viscosity_ratio);
     if (residual < converged * std::abs(value))
       rates.push_back(1.0 / value);
   }

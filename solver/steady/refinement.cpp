@@ -109,6 +109,8 @@ SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
   if (period > 0) {
     constexpr double poiseuille = 8; // pressure drop of a tube per radius
     record.further["apparent_viscosity"] = 1 + record.row.pressure_drop / (poiseuille * period);
+    record.further["pairing_growth_rate"] =
+        growth_rates(system, state.unknowns, viscosity_ratio, Neighbours::opposed)[0].real();
     record.further["min_gap"] = system.gap_to_next(state.unknowns.head(2 * system.nodes()));
   }
   return record;

@@ -21,7 +21,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
 struct SteadyRecord {
   SeriesRow row;
   Profile profile;
-  // growth_rate, oscillation_rate, growth_per_length; of a train apparent_viscosity and min_gap, too
+  // growth_rate, oscillation_rate, growth_per_length; of a train apparent_viscosity, pairing_growth_rate and min_gap, too
   std::map<std::string, double> further;
 };
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);

@@ -47,12 +47,13 @@ double SteadySystem::needed_half_length() const {
   return input_.flow.period > 0 ? alone + 2 * tip_ + wall_beyond : alone;
 }
 
-void SteadySystem::place_images() {
-  std::vector<double> shifts;
+std::vector<Image> SteadySystem::images(Neighbours neighbours) const {
+  std::vector<Image> images;
   for (int k = 1; k <= images_on_each_side(); ++k)
     for (const double side : {-1, 1})
-      shifts.push_back(side * k * input_.flow.period);
-  flow_->place_images(std::move(shifts));
+      images.push_back({.shift = side * k * input_.flow.period,
+                        .amplitude = neighbours == Neighbours::opposed && k % 2 != 0 ? -1.0 : 1.0});
+  return images;
 }
 
 void SteadySystem::build_flow() {
@@ -64,7 +65,7 @@ void SteadySystem::build_flow() {
       make_flow(pore_, {.type = input_.flow.type, .capillary_number = 1}, membrane_.basis, resolution_.flow);
   if (input_.flow.drive == DriveBy::pressure)
     flow_->drive_by({empty_pressure_drop(input_.pore, driven_tube_length(input_))});
-  place_images();
+  flow_->place_images(images(Neighbours::alike));
 }
 
 void SteadySystem::set_parameters(const Case &input) {
@@ -78,7 +79,7 @@ void SteadySystem::set_parameters(const Case &input) {
   if (needed_half_length() > half_length_)
     build_flow();
   else
-    place_images();
+    flow_->place_images(images(Neighbours::alike));
 }
 
 Vector SteadySystem::initial() const {
@@ -205,15 +206,19 @@ Vector SteadySystem::residual(const Vector &unknowns) const {
   return equations(unknowns, flow_->solve(flow_->interact(position), load(position), unused).velocity);
 }
 
-SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns) const {
+SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns, Neighbours neighbours) const {
   const Eigen::Index n = nodes();
   const Vector position = unknowns.head(2 * n);
   require_shape(position);
   Recycled unused;
   const Interaction interaction = flow_->interact(position, Layers::both);
   const Vector velocity = flow_->solve(interaction, load(position), unused).velocity;
-  LinearMotion motion =
-      linear_motion(interaction, membrane_, position, velocity, input_.flow.capillary_number);
+  const auto motion_in = [&](const Interaction &disturbed) {
+    return linear_motion(disturbed, membrane_, position, velocity, input_.flow.capillary_number);
+  };
+  LinearMotion motion = neighbours == Neighbours::alike
+                            ? motion_in(interaction)
+                            : motion_in(flow_->interact(position, Layers::both, images(neighbours)));
   Linearisation result;
   result.residual = equations(unknowns, velocity);
   result.single_layer = std::move(motion.single_layer);

@@ -17,8 +17,12 @@
 #include "scene/scene.hpp"
 #include "steady/linear_motion.hpp"
 #include <optional>
+#include <vector>
 
 namespace capsule {
+
+// What the neighbours in a train do in a small motion of one capsule.
+enum class Neighbours { alike, opposed };
 
 class SteadySystem {
 public:
@@ -52,7 +56,9 @@ public:
     Matrix single_layer, double_layer; // of linear_motion.hpp
     Matrix friction;                   // R of surface_viscosity.hpp, or empty: small motions depend on it
   };
-  Linearisation linearise(const Vector &unknowns) const;
+  // With neighbours that move alike this is the derivative of the residual. With opposed ones, of whom every second one
+  // makes the same motion and the others its negative, only the matrices of small motions differ.
+  Linearisation linearise(const Vector &unknowns, Neighbours neighbours = Neighbours::alike) const;
   // The part of the equations that depends on the parameters where the shape does not change: the nodal load
   // f = q/epsilon (2N), on which the velocity depends linearly, and the left sides of the two constraints.
   Vector load_and_constraints(const Vector &unknowns) const;
@@ -65,7 +71,7 @@ private:
   void build_flow();
   int images_on_each_side() const;
   double needed_half_length() const;
-  void place_images();
+  std::vector<Image> images(Neighbours neighbours) const;
   void require_shape(const Vector &position) const;
   Vector equations(const Vector &unknowns, const Vector &velocity) const;
   Eigen::Vector2d constraints(const Vector &position) const;

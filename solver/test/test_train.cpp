@@ -6,6 +6,9 @@
 #include "extrapolation.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
+#include "membrane/load.hpp"
+#include "scene/make_flow.hpp"
+#include "steady/growth_rates.hpp"
 #include "steady/newton.hpp"
 #include "steady/refinement.hpp"
 #include "steady/slopes.hpp"
@@ -46,7 +49,7 @@ BOOST_AUTO_TEST_CASE(rigid_limit) {
                          Row{0.8, 1, 1.2753364, 7.696080}}) {
     Case physics = train_case(skalak, row.radius, 0.004, 2 * row.radius + row.gap);
     SteadyState state = find_steady(physics, {}, {});
-    std::array<double, 3> speeds{}, drops{};
+    std::array<double, 3> speeds{}, drops{}, pairing{}; // by reversibility rigid spheres do not pair
     for (std::size_t k = 0; k < 3; ++k) {
       state.system->set_parameters(physics);
       state.unknowns = solve_steady(*state.system, state.unknowns);
@@ -54,12 +57,15 @@ BOOST_AUTO_TEST_CASE(rigid_limit) {
       BOOST_TEST(std::abs(flow.pressure_drop - flow.pressure_drop_reciprocal) < 1e-6 * row.pressure_drop);
       speeds[k] = state.unknowns[2 * state.system->nodes()];
       drops[k] = flow.pressure_drop;
+      pairing[k] = growth_rates(*state.system, state.unknowns, 1, Neighbours::opposed)[0].real();
       physics.flow.capillary_number /= 2;
     }
     BOOST_TEST(std::abs(extrapolated(speeds) - row.speed) < 1e-5);
     BOOST_TEST(std::abs(extrapolated(drops) - row.pressure_drop) < 1e-5 * row.pressure_drop);
+    BOOST_TEST(std::abs(extrapolated(pairing)) < 1e-5);
     BOOST_TEST_MESSAGE(row.radius << ' ' << row.gap << ": " << extrapolated(speeds) - row.speed << ' '
-                                  << extrapolated(drops) - row.pressure_drop);
+                                  << extrapolated(drops) - row.pressure_drop << ' ' << pairing[0] << ' '
+                                  << pairing[1] << ' ' << pairing[2]);
   }
 }
 
@@ -67,12 +73,19 @@ BOOST_AUTO_TEST_CASE(rigid_limit) {
 BOOST_AUTO_TEST_CASE(a_long_period_is_one_capsule_alone) {
   const SteadyState state = find_steady(train_case(neo_hookean, 0.8, 0.05, 6.2), {}, {});
   const SteadyRecord far_apart = record_steady(state, 1);
+  const double beside_drift = growth_rates(*state.system, state.unknowns, 1, Neighbours::opposed)[1].real();
   state.system->set_parameters(train_case(neo_hookean, 0.8, 0.05, 0));
   const SteadyRecord alone = record_steady({state.system, solve_steady(*state.system, state.unknowns)}, 1);
   const SteadyRecord close = record_steady(find_steady(train_case(neo_hookean, 0.8, 0.05, 2), {}, {}), 1);
   BOOST_TEST(std::abs(far_apart.row.v_g - alone.row.v_g) < 1e-7);
   BOOST_TEST(std::abs(far_apart.row.pressure_drop - alone.row.pressure_drop) < 1e-6);
   BOOST_TEST(std::abs(far_apart.further.at("growth_rate") - alone.further.at("growth_rate")) < 1e-6);
+  // Opposed neighbours drift freely against each other; the next motion is the capsule's own.
+  BOOST_TEST_MESSAGE(far_apart.further.at("pairing_growth_rate")
+                     << ' ' << close.further.at("pairing_growth_rate"));
+  BOOST_TEST(std::abs(far_apart.further.at("pairing_growth_rate")) < 1e-6);
+  BOOST_TEST(std::abs(beside_drift - alone.further.at("growth_rate")) < 1e-6);
+  BOOST_TEST(close.further.at("pairing_growth_rate") < -1e-3);
   BOOST_TEST(close.row.pressure_drop < alone.row.pressure_drop - 0.05);
   BOOST_TEST(close.further.at("apparent_viscosity") == 1 + close.row.pressure_drop / 16);
   BOOST_TEST(std::abs(close.further.at("min_gap") - (2 - close.row.length)) < 0.1);
@@ -89,6 +102,45 @@ BOOST_AUTO_TEST_CASE(two_meshes_agree) {
   BOOST_TEST(std::abs(a.row.pressure_drop / b.row.pressure_drop - 1) < 1e-6);
   BOOST_TEST(std::abs(a.further.at("min_gap") - b.further.at("min_gap")) < 1e-5);
   BOOST_TEST(std::abs(a.further.at("growth_rate") / b.further.at("growth_rate") - 1) < 1e-5);
+}
+
+// Two capsules in a period twice as long, displaced against each other: the differences of their velocities are the
+// derivative with opposed neighbours, for any viscosity ratio.
+BOOST_AUTO_TEST_CASE(opposed_neighbours_are_two_in_one_period) {
+  const double period = 1.9;
+  const SteadyState state = find_steady(train_case(neo_hookean, 0.8, 0.05, period), {}, {});
+  const SteadySystem &system = *state.system;
+  const Eigen::Index n = system.nodes();
+  const auto zeta = system.membrane().basis.nodes.array();
+  Vector direction(2 * n), ahead = Vector::Zero(4 * n);
+  direction << 0.3 + (2 * zeta).cos() + 0.5 * zeta.cos(), zeta.sin() - 0.4 * (2 * zeta).sin();
+  ahead.segment(n, n).setConstant(period);
+  for (const double lambda : {1.0, 5.0}) {
+    const MembraneInFlow membrane{system.membrane().basis, system.resolution().flow, lambda, {}};
+    Flow flow = make_flow(system.pore(), {.type = FlowType::pore, .capillary_number = 1},
+                          std::vector<MembraneInFlow>{membrane, membrane});
+    flow.place_images({{-2 * period}, {2 * period}}); // others would stand before coarse parts of the wall
+    const auto first = flow.mesh().rows(0), second = flow.mesh().rows(1);
+    const auto velocity_at = [&](double step) {
+      Vector position = ahead, load(4 * n);
+      for (const auto &[rows, side] : {std::pair(first, 1), std::pair(second, -1)}) {
+        const Vector here = state.unknowns.head(2 * n) + side * step * direction;
+        position(rows) += here;
+        load(rows) = membrane_load(system.membrane(), here) / system.input().flow.capillary_number;
+      }
+      Recycled unused;
+      return flow.solve(flow.interact(position), load, unused).velocity;
+    };
+    constexpr double h = 1e-3;
+    const Vector differences =
+        (8 * (velocity_at(h) - velocity_at(-h)) - velocity_at(2 * h) + velocity_at(-2 * h)) / (12 * h);
+    const Vector exact = small_motion(system, state.unknowns, lambda, Neighbours::opposed) * direction;
+    const double tolerance = 1e-6 * largest(exact);
+    BOOST_TEST_MESSAGE(lambda << ": " << largest(differences(first) - exact) / largest(exact));
+    BOOST_TEST(largest(differences(first) - exact) < tolerance);
+    BOOST_TEST(largest(differences(second) + exact) < tolerance);
+    BOOST_TEST(largest(small_motion(system, state.unknowns, lambda) * direction - exact) > 100 * tolerance);
+  }
 }
 
 // About a shape that is not steady, with images so close that their kernels need near rules.
