@@ -1,6 +1,7 @@
 #!/bin/sh
-# Configures a build directory by its preset where that is still to be done. One that came with a copy of the tree, or from
-# where the tree lay before, belongs to the other place and would build there: it is configured anew.
+# Configures a build directory by its preset where that is still to be done, or where the presets are newer. One that came
+# with a copy of the tree, or from where the tree lay before, belongs to the other place and would build there: it is
+# configured anew.
 #   cmake/configure.sh PRESET DIRECTORY
 set -eu
 cd "$(dirname "$0")/.."
@@ -9,4 +10,6 @@ if [ -n "$home" ] && ! [ "$home" -ef . ]; then
   echo "$2 belongs to $home: configured anew"
   exec cmake --fresh --preset "$1"
 fi
-[ -e "$2/build.ninja" ] || exec cmake --preset "$1"
+if ! [ -e "$2/build.ninja" ] || [ CMakePresets.json -nt "$2/CMakeCache.txt" ]; then
+  exec cmake --preset "$1"
+fi

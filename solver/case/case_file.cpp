@@ -122,13 +122,13 @@ struct Builder {
 
   void take_derived(const Derived &value) {
     const Key &key = *find_key(value.key);
-    const double stated = *number(key, run.physics);
+    const std::optional<double> stated = number(key, run.physics);
     if (auto complaint = set_value(key, value.value, run.physics))
       chosen.complain({value.from}, complaint->message, complaint->hint);
     constexpr double rounding = 5e-4; // to four digits
-    if (chosen.given(value.key) && std::abs(stated / value.value - 1) > rounding)
+    if (chosen.given(value.key) && std::abs(*stated / value.value - 1) > rounding)
       chosen.complain({value.key},
-                      fmt::format("{} = {}, but {} makes it {}", value.key, number_text(stated), value.from,
+                      fmt::format("{} = {}, but {} makes it {}", value.key, number_text(*stated), value.from,
                                   number_text(value.value)),
                       "leave one of them out, or let them agree to four digits");
   }
