@@ -33,11 +33,11 @@ constexpr std::array<Outcome, 4> outcomes{{{"agrees", "agree"},
                                            {"differs", "are not reproduced"},
                                            {"undecided", "cannot be decided"}}};
 
-// Of the rows that differ tables/published.csv says in the evidence whether the paper's mesh is why.
 std::string outcome_of(const Row &row) {
-  if (std::string style = verdict_style(row.at("verdict")); style == "agrees" || style == "undecided")
-    return style;
-  return row.at("reading and evidence").find("the paper's mesh") != std::string::npos ? "mesh" : "differs";
+  if (!row.at("cause").empty())
+    return row.at("cause");
+  const std::string style = verdict_style(row.at("verdict"));
+  return style.empty() ? "differs" : style; // not as recorded
 }
 
 // A number with as many digits as its error leaves, and the error: "7.176355 ± 3e-6".

@@ -19,7 +19,7 @@ table_of() {
   awk '
     function quoted(text) { gsub(/"/, "\"\"", text); return "\"" text "\"" }
     function complain(what) { print FILENAME ":" FNR ": " what > "/dev/stderr"; bad = 1 }
-    BEGIN { print "id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,converged,verdict,evidence" }
+    BEGIN { print "id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,converged,verdict,cause,evidence" }
     {
       for (line = $0; at = index(line, "<!--"); line = substr(line, at + 4 + end + 2)) {
         before = substr(line, 1, at - 1)
@@ -53,7 +53,7 @@ table_of() {
         allowed = bound == "" ? "5e" (exponent - decimals - 1) : ""
         ++count
         print count "," FILENAME ":" FNR "," of "," quoted(run) "," quoted(quantity) "," bound printed "," allowed ",," count \
-          ",behaviour,,,agrees,"
+          ",behaviour,,,agrees,,"
       }
     }
     END { exit bad }' "$@"

@@ -52,11 +52,11 @@ mkdir -p figures/small tables validation/uncomputed
 echo '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"><rect width="300" height="200" fill="#fff"/></svg>' > figures/small/shape.svg
 echo '**Figure 5a.** Profiles at x_g = 2: they differ by 1e-05 in max_stretch.' > figures/small/shape.md
 cat > tables/ledger.csv << 'END'
-claim,row,where,kind,statement,published,with the paper's numerics,converged,own error,distance,allowed,verdict,reading and evidence,run,quantity
-A,A-1,Table 2,number,"v_g, lambda 1",1.3012,,1.30174231,2e-06,+0.04 %,0.1 %,agrees,one digit,,
-B,B-1,Table 3,number,"Delta P, lambda 1",18.30,18.31,17.64103,0.006,-0.66,0.05,differs,an error of the paper's mesh,,
-C,C-1,Figure 8,number,x_g at t 18.7,3.44,,3.398205,7e-06,-0.042,0.005,differs,nothing gives it,,
-D,D-1,Table 1,number,"x_g, N_M 60",11.7255558,,11.7254,,,,not decidable,not said,,
+claim,row,where,kind,statement,published,with the paper's numerics,converged,own error,distance,allowed,verdict,cause,reading and evidence,run,quantity
+A,A-1,Table 2,number,"v_g, lambda 1",1.3012,,1.30174231,2e-06,+0.04 %,0.1 %,agrees,,one digit,,
+B,B-1,Table 3,number,"Delta P, lambda 1",18.30,18.31,17.64103,0.006,-0.66,0.05,differs,mesh,an error of the paper's mesh,,
+C,C-1,Figure 8,number,x_g at t 18.7,3.44,,3.398205,7e-06,-0.042,0.005,differs,,nothing gives it,,
+D,D-1,Table 1,number,"x_g, N_M 60",11.7255558,,11.7254,,,,not decidable,,not said,,
 END
 echo '# What is not computed?' > validation/uncomputed/README.md
 "$report" page.html cases/small cases/two validation/uncomputed

@@ -16,10 +16,10 @@ until.time = 2
 [sweep]
 "pore.exit_x" = [5, 0.6]
 TOML
-head='id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,converged,verdict,evidence'
-good="t,Table 9,small,pore.exit_x=5,time,2,0.01,,t,number,the time,,agrees,
-v,Table 9,small,pore.exit_x=5,v_g,9,0.1,,v,number,a velocity,,differs,nobody measured it"
-exit_row='x,Table 9,small,pore.exit_x=0.6,status,failed:exit,,,x,behaviour,the capsule leaves,,agrees,'
+head='id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,converged,verdict,cause,evidence'
+good="t,Table 9,small,pore.exit_x=5,time,2,0.01,,t,number,the time,,agrees,,
+v,Table 9,small,pore.exit_x=5,v_g,9,0.1,,v,number,a velocity,,differs,,nobody measured it"
+exit_row='x,Table 9,small,pore.exit_x=0.6,status,failed:exit,,,x,behaviour,the capsule leaves,,agrees,,'
 
 ends 2 ledger --table all
 says 'no tables/published.csv'

@@ -33,6 +33,7 @@ constexpr std::array published_columns{Column{"id", &Expectation::id},
                                        Column{"statement", &Expectation::statement},
                                        Column{"converged", &Expectation::converged},
                                        Column{"verdict", &Expectation::verdict},
+                                       Column{"cause", &Expectation::cause},
                                        Column{"evidence", &Expectation::evidence}};
 constexpr std::array own_columns{Column{"id", &Expectation::id},
                                  Column{"run", &Expectation::run},
@@ -42,6 +43,7 @@ constexpr std::array own_columns{Column{"id", &Expectation::id},
                                  Column{"reason", &Expectation::reason}};
 constexpr std::array kinds{"number", "bound", "ratio", "order", "behaviour", "picture"};
 constexpr std::array verdicts{"agrees", "differs", "not decidable"};
+constexpr std::array causes{"", "mesh"};
 
 // Reads the published value and the allowed distance. Returns what is wrong with them, or nothing.
 std::string read_numbers(Expectation &row) {
@@ -75,7 +77,7 @@ std::string read_numbers(Expectation &row) {
   return "";
 }
 
-// Reads the recorded verdict. Returns what is wrong with it, its evidence or the kind, or nothing.
+// Reads the recorded verdict. Returns what is wrong with it, its cause, its evidence or the kind, or nothing.
 std::string read_verdict(Expectation &row) {
   const auto *const verdict = std::ranges::find(verdicts, row.verdict);
   if (verdict == verdicts.end())
@@ -83,6 +85,10 @@ std::string read_verdict(Expectation &row) {
   row.recorded = static_cast<Verdict>(verdict - verdicts.begin());
   if (row.recorded != Verdict::agrees && row.evidence.empty())
     return fmt::format("evidence is missing for the verdict '{}'", row.verdict);
+  if (std::ranges::find(causes, row.cause) == causes.end())
+    return fmt::format("the cause '{}' is neither 'mesh' nor empty", row.cause);
+  if (row.recorded != Verdict::differs && !row.cause.empty())
+    return fmt::format("the verdict '{}' has no cause", row.verdict);
   if (!row.claim.empty() && std::ranges::find(kinds, row.kind) == kinds.end())
     return fmt::format("the kind '{}' is none of '{}'", row.kind, fmt::join(kinds, "', '"));
   return "";

@@ -15,6 +15,7 @@
 // - statement: what the paper says, in words.
 // - converged: an expression for the converged value, where `quantity` is one of the paper's own numerics.
 // - verdict: what the comparison must find: "agrees", "differs", or "not decidable" (then nothing is compared).
+// - cause: "mesh" where it differs because the paper's mesh is too coarse, otherwise empty.
 // - evidence: why it differs or cannot be decided, and where this is shown.
 // A case directory has its own expectations in expected.csv beside its case.toml, with the columns id, run, quantity,
 // expected (as `published`), allowed and reason; all of them must agree.
@@ -32,7 +33,7 @@ std::string verdict_text(Verdict verdict);
 struct Expectation {
   // Columns of the table.
   std::string id, where, case_name, run, quantity, published, allowed, reason;
-  std::string claim, kind, statement, converged, verdict, evidence;
+  std::string claim, kind, statement, converged, verdict, cause, evidence;
   Verdict recorded = Verdict::agrees;
   enum class Form { status, value, below, above } form = Form::value; // what `published` is
   double published_value = 0;

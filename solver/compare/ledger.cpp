@@ -42,6 +42,7 @@ TextRow ledger_row(const Comparison &c) {
           c.distance,
           row.allowed,
           c.as_recorded() ? verdict_text(c.verdict) : "NOT AS RECORDED",
+          c.as_recorded() ? row.cause : "",
           joined(row.reason, row.evidence),
           c.run.empty() ? c.case_name : c.case_name + ": " + c.run,
           row.quantity};
@@ -76,14 +77,15 @@ Ledger make_ledger(const std::vector<Comparison> &comparisons) {
                                count(Verdict::not_decidable));
   std::vector<TextRow> table{{"claim", "row", "where", "kind", "statement", "published",
                               "with the paper's numerics", "converged", "own error", "distance", "allowed",
-                              "verdict", "reading and evidence", "run", "quantity"}};
+                              "verdict", "cause", "reading and evidence", "run", "quantity"}};
   std::ranges::transform(rows, std::back_inserter(table), ledger_row);
   ledger.csv = csv_table(table);
   ledger.markdown = fmt::format(
       "# Ledger of the paper's claims\n\n{}.\n\nDistances are from the published value to the one with the "
       "paper's numerics where there is one, otherwise to the converged one. A claim differs if one of its "
       "rows "
-      "does. Rows and readings: `tables/published.csv`.\n\n{}",
+      "does; the cause \"mesh\" means that the paper's mesh is too coarse. Rows and readings: "
+      "`tables/published.csv`.\n\n{}",
       ledger.summary, markdown_table(table));
   return ledger;
 }

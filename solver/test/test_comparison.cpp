@@ -10,8 +10,8 @@ using namespace capsule;
 
 namespace {
 
-const std::string header =
-    "id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,converged,verdict,evidence\n";
+const std::string header = "id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,"
+                           "converged,verdict,cause,evidence\n";
 
 RunResult result_with(double viscosity_ratio, double v_g) {
   RunResult result;
@@ -24,7 +24,7 @@ RunResult result_with(double viscosity_ratio, double v_g) {
 
 // A row that is no claim of the paper and should agree, from its first eight fields.
 std::string plain(const std::string &fields) {
-  return fields + ",,,,,agrees,\n";
+  return fields + ",,,,,agrees,,\n";
 }
 
 std::vector<Comparison> compared(const std::string &rows, const std::vector<RunResult> &results) {
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(statuses_and_failures) {
 // Neither a disagreement nor an agreement may come unrecorded.
 BOOST_AUTO_TEST_CASE(the_record_of_verdicts) {
   const auto row = [](const std::string &published, const std::string &recorded) {
-    return compared("a,T,fig,,v_g," + published + ",0.1,,A,behaviour,,," + recorded + ",here\n",
+    return compared("a,T,fig,,v_g," + published + ",0.1,,A,behaviour,,," + recorded + ",,here\n",
                     {result_with(1, 2)})
         .at(0);
   };
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(a_verdict_needs_a_small_error) {
   const auto row = [](const std::string &quantity, const std::string &published, const std::string &allowed,
                       const std::string &kind, const std::string &recorded) {
     return compared("a,T,fig,," + quantity + "," + published + "," + allowed + ",,A," + kind + ",,," +
-                        recorded + ",here\n",
+                        recorded + ",,here\n",
                     {result_with(1, 2)})
         .at(0);
   };
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(a_verdict_needs_a_small_error) {
   BOOST_TEST(!row("volume_change", "0", "0.1", "number", "agrees").as_recorded()); // no estimate
   // The converged value's error counts, where the quantity is one of the paper's numerics.
   const auto both =
-      compared("a,T,fig,,volume_change,0,0.1,,A,number,,v_g,agrees,\n", {result_with(1, 2)}).at(0);
+      compared("a,T,fig,,volume_change,0,0.1,,A,number,,v_g,agrees,,\n", {result_with(1, 2)}).at(0);
   BOOST_TEST(both.as_recorded());
   BOOST_TEST(both.converged == "2");
   BOOST_TEST(both.estimate == "3e-05");
@@ -155,22 +155,22 @@ BOOST_AUTO_TEST_CASE(a_verdict_needs_a_small_error) {
 // One line per row, with its worst run; a claim differs if one of its rows does.
 BOOST_AUTO_TEST_CASE(ledger_of_claims) {
   const auto comparisons =
-      compared("a-1,T,fig,,v_g,<2,,,A,bound,says,,agrees,\n"
-               "a-2,T,fig,viscosity_ratio=5,v_g,1,0.1,,A,number,says,,differs,there\n"
-               "b,T,fig,viscosity_ratio=5,v_g,much,,,B,number,says,,not decidable,there\n"
-               "c,T,fig,viscosity_ratio=5,v_g,1.3,0.1,why,C,number,says,,agrees,\n" +
+      compared("a-1,T,fig,,v_g,<2,,,A,bound,says,,agrees,,\n"
+               "a-2,T,fig,viscosity_ratio=5,v_g,1,0.1,,A,number,says,,differs,mesh,there\n"
+               "b,T,fig,viscosity_ratio=5,v_g,much,,,B,number,says,,not decidable,,there\n"
+               "c,T,fig,viscosity_ratio=5,v_g,1.3,0.1,why,C,number,says,,agrees,,\n" +
                    plain("d,T,fig,,v_g,7,0.1 %,"),
                {result_with(1, 1.2), result_with(5, 1.3)});
   const Ledger ledger = make_ledger(comparisons);
   BOOST_TEST(ledger.summary == "3 claims of the paper in 4 rows: 1 agree, 1 differ, 1 cannot be decided");
   BOOST_TEST(ledger.not_as_recorded == 0);
-  check_contains(ledger.csv, "A,a-1,T,bound,says,<2,,1.3,3e-05,-0.7,,agrees,,fig: viscosity_ratio=5,v_g\n");
+  check_contains(ledger.csv, "A,a-1,T,bound,says,<2,,1.3,3e-05,-0.7,,agrees,,,fig: viscosity_ratio=5,v_g\n");
   check_contains(ledger.csv,
-                 "A,a-2,T,number,says,1,,1.3,3e-05,+0.3,0.1,differs,there,fig: viscosity_ratio=5,v_g\n");
+                 "A,a-2,T,number,says,1,,1.3,3e-05,+0.3,0.1,differs,mesh,there,fig: viscosity_ratio=5,v_g\n");
   check_contains(ledger.markdown, "| C | c | T | number | says | 1.3 |  | 1.3 |");
   BOOST_TEST(std::ranges::count(ledger.csv, '\n') == 5);
   const auto wrong =
-      compared("a,T,fig,,v_g,<1.25,,,A,bound,says,,agrees,\n", {result_with(1, 1.2), result_with(5, 1.3)});
+      compared("a,T,fig,,v_g,<1.25,,,A,bound,says,,agrees,,\n", {result_with(1, 1.2), result_with(5, 1.3)});
   BOOST_TEST(make_ledger(wrong).not_as_recorded == 1);
   check_contains(make_ledger(wrong).csv, ",NOT AS RECORDED,");
 }

@@ -8,12 +8,12 @@ using namespace capsule;
 
 namespace {
 
-const std::string header =
-    "id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,converged,verdict,evidence\n";
+const std::string header = "id,where,case,run,quantity,published,allowed,reason,claim,kind,statement,"
+                           "converged,verdict,cause,evidence\n";
 
 // A row that is no claim of the paper and should agree, from its first eight fields.
 std::string plain(const std::string &fields) {
-  return fields + ",,,,,agrees,\n";
+  return fields + ",,,,,agrees,,\n";
 }
 
 std::string mistake_in(const std::string &table) {
@@ -35,7 +35,7 @@ void check_contains(const std::string &text, const std::string &part) {
 BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
   check_contains(mistake_in(""), "published.csv:1:1: error: the first line must be");
   check_contains(mistake_in("id,where\n"), "published.csv:1:1: error: the first line must be");
-  check_contains(mistake_in(header + "a,T,fig,,v_g,1\n"), "published.csv:2:1: error: 6 fields instead of 14");
+  check_contains(mistake_in(header + "a,T,fig,,v_g,1\n"), "published.csv:2:1: error: 6 fields instead of 15");
   const auto mistake = [](const std::string &fields) { return mistake_in(header + plain(fields)); };
   check_contains(mistake("a,T,x,,v_g,high,1 %,"), "the value 'high' is not a number");
   check_contains(mistake("a,T,x,,v_g,\"1,3\",1 %,"), "the value '1,3' is not a number; write 1.3");
@@ -52,10 +52,13 @@ BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
   check_contains(mistake("a,T,x,,v_g +,1,1 %,"), "a number or a name is missing");
   check_contains(mistake("a,T,x,,v_g{size=1},1,1 %,"), "unknown key 'size'");
   const std::string row = "a,T,x,,v_g,1,1 %,,";
-  check_contains(mistake_in(header + row + "A,number,,,yes,\n"),
+  check_contains(mistake_in(header + row + "A,number,,,yes,,\n"),
                  "the verdict 'yes' is none of 'agrees', 'differs'");
-  check_contains(mistake_in(header + row + "A,number,,,differs,\n"), "evidence is missing");
-  check_contains(mistake_in(header + row + "A,size,,,agrees,\n"), "the kind 'size' is none of");
+  check_contains(mistake_in(header + row + "A,number,,,differs,,\n"), "evidence is missing");
+  check_contains(mistake_in(header + row + "A,number,,,differs,reading,there\n"),
+                 "the cause 'reading' is neither");
+  check_contains(mistake_in(header + row + "A,number,,,agrees,mesh,\n"), "the verdict 'agrees' has no cause");
+  check_contains(mistake_in(header + row + "A,size,,,agrees,,\n"), "the kind 'size' is none of");
   const std::string all = mistake_in("id\nb\n" + plain("a,T,x,,v_g,high,1 %,") + plain("a,T,fig,,v_g,1,0,"));
   for (const char *place : {":1:1: error: ", ":2:1: error: ", ":3:1: error: ", ":4:1: error: "})
     check_contains(all, place);
