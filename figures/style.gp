@@ -83,6 +83,8 @@ set linetype 5 linewidth 1.5 linecolor rgb "#CC79A7" dashtype (2, 2) pointtype 1
 set linetype 6 linewidth 1.5 linecolor rgb "#E69F00" dashtype (8, 2, 2, 2, 2, 2) pointtype 2
 # The same one for a viscosity ratio in all figures of the paper's; run i has its own for another ratio.
 linetype_of_ratio(ratio, i) = ratio == 0.2 ? 1 : ratio == 1 ? 2 : ratio == 5 ? 3 : ratio == 10 ? 4 : i
+# A law as people write it.
+law_title(law) = law eq "neo-hookean" ? "neo-Hookean" : law eq "skalak" ? "Skalak" : law
 wall_colour = "#D8D8D8"
 capsule_colour = "#FBE5D6"
 capsule_fill = "filledcurves closed fillstyle solid border linewidth 0.5 linecolor rgb capsule_colour"

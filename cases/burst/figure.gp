@@ -1,4 +1,4 @@
-law(i) = parameter_word(run(i), "membrane.law")
+law(i) = law_title(parameter_word(run(i), "membrane.law"))
 radius(i) = parameter(run(i), "capsule.radius")
 epsilon(i) = parameter(run(i), "flow.capillary_number")
 is(i, r, e) = abs(radius(i) - r) < 1e-9 && abs(epsilon(i) - e) < 1e-9

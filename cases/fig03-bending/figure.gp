@@ -9,7 +9,7 @@ do for [i=1:count] {
     wrinkled_at = listed(wrinkled_at, sprintf("%.4g", end(i, "x_g")))
   } else {
     smooth = smooth." ".i
-    pressures = listed(pressures, sprintf("%.4f for δ = %g", end(i, "pressure_drop"), delta(i)))
+    pressures = listed(pressures, sprintf("%.4f for δ = %.0e", end(i, "pressure_drop"), delta(i)))
   }
 }
 
@@ -62,5 +62,5 @@ unset key; unset xlabel; unset ylabel
 replot
 unset multiplot
 print "**Figure 3.** Extra pressure drop for different bending stiffnesses, and where they part. With the smallest", \
-  sprintf("%d the membrane wrinkles at x_g = %s. Where wrinkles are prevented the stiffness has a weak effect: at x_g = %g the pressure drop is %s.", \
-    words(wrinkled), wrinkled_at, end(word(smooth, 1), "x_g"), pressures)
+  sprintf("values of δ the membrane wrinkles (at x_g = %s). Where the stiffness prevents wrinkles it has a weak effect: at x_g = %g the pressure drop is %s.", \
+    wrinkled_at, end(word(smooth, 1), "x_g"), pressures)

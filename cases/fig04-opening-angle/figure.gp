@@ -15,4 +15,4 @@ plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" w
 print sprintf("**Figure 4.** Profiles at x_g = %g behind two mouths. They are at most", last_x_g), \
   sprintf("%.0e pore radii apart, with pressure drops of %.4f and %.4f:", difference(1, count), \
           result(run(1), "pressure_drop"), result(run(count), "pressure_drop")), \
-  "the steady shape does not know the entrance. (The paper compares with an earlier study's shape for 45°.)"
+  "the steady shape does not depend on the mouth. (The paper compares with an earlier study's shape for 45°.)"

@@ -29,11 +29,11 @@ set key left top
 plot for [i in spheres." ".ellipsoids] series(run(i + 0)) using (column("time") - mouth[i + 0]):"resistance" with lines linetype i + 0 \
     title name(i), \
   for [i in word(spheres, 1)] series(run(i + 0)) using (column("time") - mouth[i + 0]):"resistance_long_conductor" with lines linetype 1 linewidth 0.7 dashtype 3 \
-    title sprintf("%s, long conductor", name(i))
+    title sprintf("long conductor, {/:Italic ε} = %g", epsilon(i))
 set xlabel "time since {/:Italic x}_g = 0 / (π{/:Italic R}_t^3/{/:Italic Q}_0)"; set ylabel "{/:Italic Q} / {/:Italic Q}_0"
 set yrange [*:1.01]; unset key
 plot for [i=1:count] series(run(i)) using (column("time") - mouth[i]):"flow_rate" with lines linetype i
 unset multiplot
 print sprintf("**Pulses.** What capsules add to the resistance of a pore of length %g, and the flow rate at constant pressure.", second_mouth), \
   sprintf("The stiffest sphere adds at most %.1f %% of the empty pore's resistance;", 100 * entry(results(stiff), "    \"pulse_height\"") / empty), \
-  sprintf("the long conductor says %.1f %%, and it hardly has a foot.", 100 * long_max / empty)
+  sprintf("the long conductor says %.1f %%, and it has almost no signal before the mouth.", 100 * long_max / empty)

@@ -25,11 +25,11 @@ plot for [k=1:words(radii)] $times using (of(word(radii, k) + 0, 1, column("epsi
 unset key; unset ylabel; set title "constant flow rate"
 plot for [k=1:words(radii)] $times using (of(word(radii, k) + 0, 0, column("epsilon"))):"time" with linespoints linetype k
 unset multiplot
-print "**Transit times.** From one radius before a pore of length 6 to one behind it. Under constant pressure a large capsule", \
-  "takes the longer the stiffer it is, at constant flow rate hardly. Where a curve ends, stiffer capsules plug the pore."
+print "**Transit times.** From one radius before a pore of length 6 to one behind it. At constant pressure a large capsule takes", \
+  "longer when it is stiffer; at constant flow rate the stiffness hardly matters. Where a curve ends, stiffer capsules plug the pore."
 
 # Why a capsule does not pass, and where.
-end_of(i) = status(i) eq "reached" ? sprintf("%.2f", transit(i)) : sprintf("plugs at %.1f", result(run(i), "x_g"))
+end_of(i) = status(i) eq "reached" ? sprintf("%.2f", transit(i)) : sprintf("plugs at x_g = %.1f", result(run(i), "x_g"))
 eval table("transit-times")
 print "drive,radius,ε,λ,transit time,largest pressure drop"
 do for [i=1:count] {
