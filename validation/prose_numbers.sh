@@ -95,6 +95,13 @@ done <files
 compare $(cat files) || fail "numbers in prose are not those of the results: put them right, or make figures"
 echo "$(($(wc -l <tables/published.csv) - 1)) numbers in prose are those of the results"
 
+# README.md shows the output of a command, and its estimated error.
+shown=$(sed -n 's/^    table1-mesh: steady  \(.*\)  CPU seconds .*/\1/p' README.md)
+ends 0 steady cases/table1-mesh --out shown
+grep -qF "table1-mesh: steady  ${shown:?}  CPU seconds" log || fail "README.md shows '$shown' of table1-mesh"
+error=$(sed -n '/"error_estimate"/,/}/s/^ *"pressure_drop": \([^,]*\),*$/\1/p' shown/summary.json | xargs printf '%.0e' | sed 's/e-0/e-/')
+grep -q "(here $error)" README.md || fail "README.md shows another error of table1-mesh than $error"
+
 # A changed copy of this line must be found, and named by its place.
 says() { # LINE PATTERN: what is said of it
   printf '\n%s\n' "$1" >copy.md
