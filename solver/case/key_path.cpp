@@ -65,10 +65,8 @@ Case KeyPath::at(double part) const {
 }
 
 std::string KeyPath::text(double part) const {
-  return fmt::format("{} = {:.6g}{}", key_, value(part),
-                     key_ == flow_key && has_physical(start_)
-                         ? fmt::format(" ({})", flow_rate_text(start_, value(part)))
-                         : "");
+  const std::string rate = key_ == flow_key ? flow_rate_text(start_, value(part)) : "";
+  return fmt::format("{} = {:.6g}{}", key_, value(part), rate.empty() ? "" : " (" + rate + ")");
 }
 
 } // namespace capsule

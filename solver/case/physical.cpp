@@ -146,8 +146,12 @@ std::string flow_rate_text(const Case &physics) {
 }
 
 std::string flow_rate_text(const Case &physics, double capillary_number) {
-  const double si = flow_rate(physics) * capillary_number / physics.flow.capillary_number;
-  const Quantity &own = physics.physical.flow_rate;
+  const auto &p = physics.physical;
+  const double shear = shear_modulus(physics);
+  if (shear == 0)
+    return "";
+  const double si = capillary_number * pi * p.tube_radius.si * p.tube_radius.si * shear / p.viscosity.si;
+  const Quantity &own = p.flow_rate;
   char *unit = nullptr;
   const double typed = own.written.empty() ? 0 : std::strtod(own.written.c_str(), &unit);
   return typed > 0 ? fmt::format("{:.4g} {}", si * typed / own.si, trimmed(unit))

@@ -35,7 +35,8 @@ std::vector<Derived> derived_values(const Case &physics, bool of_a_fit = false);
 double driven_tube_length(const Case &physics);
 // "Q = 1.3e-12 m3/s without a capsule, which 500 Pa drives".
 std::string flow_rate_text(const Case &physics);
-// The flow rate at a capillary number, in the unit in which the case gives its own: "0.253 nl/s".
+// The flow rate at any capillary number, in the unit in which the case gives its own: "0.253 nl/s". Empty where the modulus
+// is unknown: without physical units, and in a fit.
 std::string flow_rate_text(const Case &physics, double capillary_number);
 
 // rho Q/(pi R_t mu) of the external liquid, of a case in physical units. The model has no inertia, which holds where this is

@@ -140,6 +140,17 @@ BOOST_AUTO_TEST_CASE(the_length_of_the_whole_pore) {
   BOOST_TEST(contains(flow_rate_text(only_run(driven)), "e-14 m3/s without a capsule, which 20 Pa drives"));
 }
 
+// Also of a case whose flow was made weaker, as on the way to a steady state.
+BOOST_AUTO_TEST_CASE(the_flow_rate_at_a_capillary_number) {
+  Case physics = only_run(laboratory);
+  const double own = physics.flow.capillary_number;
+  BOOST_TEST(flow_rate_text(physics, 2 * own) == "0.2 nl/s");
+  physics.flow.capillary_number = own / 4;
+  BOOST_TEST(flow_rate_text(physics, 2 * own) == "0.2 nl/s");
+  physics.physical.shear_modulus = {};
+  BOOST_TEST(flow_rate_text(physics, 2 * own).empty());
+}
+
 // rho/(pi R_t), of a pore radius of empty tube.
 BOOST_AUTO_TEST_CASE(the_liquid_s_resistivity_is_the_scale_of_resistances) {
   BOOST_TEST(physical_scales(only_run(laboratory)).resistance == 0); // unknown
