@@ -67,8 +67,9 @@ std::string cell(const char *label, const std::string &text, const std::string &
 }
 
 std::string as_sentence(std::string text) {
-  if (!text.empty())
-    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  if (text.empty())
+    return "";
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text + ".";
 }
 

@@ -76,7 +76,7 @@ plot $meshes using "width":"published_dP" with points linetype 1 @published_mark
   default_dP with lines linetype 3 title sprintf("%.4f", default_dP)
 unset multiplot
 print "**Table 1, drawn.**", \
-  sprintf("With its numerics the pressure drop converges to %.4f at order %.1f,", stored_dP_limit, stored_dP_order), \
+  sprintf("With the paper's numerics the pressure drop converges to %.4f at order %.1f,", stored_dP_limit, stored_dP_order), \
   sprintf("the value of the standard preset (%.4f with an error of", default_dP), \
   sprintf("%.0e);", error_of(run(1), "pressure_drop")), \
   sprintf("the published values converge to %.4f, %.2f %% above it.", published_dP_limit, \

@@ -55,6 +55,10 @@ private:
     return comparison;
   }
 
+  static std::string percent_text(double percent) {
+    return std::abs(percent) < 100 ? fmt::format("{:+.2g} %", percent) : fmt::format("{:+.0f} %", percent);
+  }
+
   static void decide(Comparison &comparison, bool agrees) {
     comparison.verdict = agrees ? Verdict::agrees : Verdict::differs;
   }
@@ -74,8 +78,7 @@ private:
       return;
     }
     const double unit = expected_.relative ? std::abs(expected_.published_value) : 1;
-    comparison.distance =
-        expected_.relative ? fmt::format("{:+.2g} %", 100 * off / unit) : fmt::format("{:+.2g}", off);
+    comparison.distance = expected_.relative ? percent_text(100 * off / unit) : fmt::format("{:+.2g}", off);
     comparison.excess = std::abs(off) - expected_.allowed_distance * unit;
     const bool agrees = comparison.excess <= 0;
     decide(comparison, agrees);

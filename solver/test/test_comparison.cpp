@@ -82,6 +82,11 @@ BOOST_AUTO_TEST_CASE(distances_relative_and_absolute) {
   BOOST_TEST((verdict("2.5", "0.5") == Verdict::agrees));
   BOOST_TEST((verdict("2.5", "0.49") == Verdict::differs));
   BOOST_TEST((verdict("-2", "10 %") == Verdict::differs));
+  const auto distance = [](const std::string &published) {
+    return compared(plain("a,T,fig,,v_g," + published + ",1 %,"), {result_with(1, 2)}).at(0).distance;
+  };
+  BOOST_TEST(distance("1.95") == "+2.6 %");
+  BOOST_TEST(distance("0.75") == "+167 %");
   const auto row = compared(plain("a,\"T, U\",fig,,v_g,2.5,25 %,"), {result_with(1, 2.0)});
   BOOST_TEST(row.at(0).distance == "-20 %");
   const auto rows = comparison_rows(row);
