@@ -21,8 +21,8 @@ unset key
 plot for [k=1:2] series(run(int(word(widest, k)))) using "x_g":"max_tension" with lines linetype k, \
   for [k=1:2] series(run(int(word(weakest, k)))) using "x_g":"max_tension" with lines linetype k linewidth 0.7
 unset multiplot
-print "**Way.** Largest area stretch and largest principal tension anywhere on the membrane.", \
-  sprintf("At the widest and softest the neo-Hookean membrane's area is stretched by %.0f %%, Skalak's by %.0f %%", \
+print "**Area and tension.** Largest area stretch and largest principal tension anywhere on the membrane.", \
+  sprintf("In the widest and softest capsule the area of the neo-Hookean membrane is stretched by %.0f %%, Skalak's by %.0f %%", \
     100 * (stretch(word(widest, 1) + 0) - 1), 100 * (stretch(word(widest, 2) + 0) - 1)), \
   sprintf("under tensions of %.2f and %.2f G.", tension(word(widest, 1) + 0), tension(word(widest, 2) + 0))
 

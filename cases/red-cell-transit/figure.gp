@@ -25,7 +25,7 @@ do for [k=1:2] {
     for [p in places[k]] outline(profiles(shown), "x_g", p + 0) using 1:2 with lines linetype 1
 }
 unset multiplot
-print "**Shapes.** A red cell at ε = 1.75 (100 Pa), above without a viscosity of its membrane, below with μ_s = 200."
+print "**Red cell, shapes.** A red cell at ε = 1.75 (100 Pa), above without a viscosity of its membrane, below with μ_s = 200."
 
 eval figure("pulses", 17, 8)
 set xrange [-2:30]; set yrange [0:*]
@@ -34,7 +34,7 @@ set ylabel "Δ{/:Italic R} / ({/:Italic ρ}/π{/:Italic R}_t)"
 set key top right
 plot for [i in plain] series(run(i)) using (column("time") - begun[i + 0]):"resistance" with lines linetype colour(i) dashtype 3 title name(i), \
   for [i in with_friction] series(run(i)) using (column("time") - begun[i + 0]):"resistance" with lines linetype colour(i) dashtype 1 title name(i)
-print "**Pulses.** Normal cells at 100 and 1000 Pa (ε = 1.75, 17.5), cells that are three times as stiff at 100 Pa (0.58).", \
+print "**Red cell, pulses.** Normal cells at 100 and 1000 Pa (ε = 1.75, 17.5), cells that are three times as stiff at 100 Pa (0.58).", \
   sprintf("From x_g = -1 to 7 they take %.1f, %.1f and %.1f without a viscous membrane; normal cells take %.1f and %.1f with one.", \
     transit(without("1.75")), transit(without("17.5")), transit(stiff), \
     transit(with_viscosity("1.75")), transit(with_viscosity("17.5")))

@@ -19,7 +19,7 @@ eval view(-3.6, 9.6, -2, 2)
 set xtics 1; set ytics 1
 plot @both_walls, for [p in "-2 0 2 4 6 8"] outline(profiles(shown), "x_g", p + 0) using 1:2 with @capsule_fill, \
   for [p in "-2 0 2 4 6 8"] outline(profiles(shown), "x_g", p + 0) using 1:2 with lines linetype 1
-print sprintf("**Shapes.** The sphere at ε = %g on its way through both mouths.", parameter(shown, "flow.capillary_number"))
+print sprintf("**Shapes between two mouths.** The sphere at ε = %g on its way through both mouths.", parameter(shown, "flow.capillary_number"))
 
 eval figure("pulse", 17, 11)
 set multiplot layout 2, 1 margins 0.1, 0.98, 0.11, 0.98 spacing 0, 0.06
@@ -34,6 +34,6 @@ set xlabel "time since {/:Italic x}_g = 0 / (π{/:Italic R}_t^3/{/:Italic Q}_0)"
 set yrange [*:1.01]; unset key
 plot for [i=1:count] series(run(i)) using (column("time") - mouth[i]):"flow_rate" with lines linetype i
 unset multiplot
-print sprintf("**Pulses.** What capsules add to the resistance of a pore of length %g, and the flow rate at constant pressure.", second_mouth), \
+print sprintf("**Pulses in a short pore.** What capsules add to the resistance of a pore of length %g, and the flow rate at constant pressure.", second_mouth), \
   sprintf("The stiffest sphere adds at most %.1f %% of the empty pore's resistance;", 100 * entry(results(stiff), "    \"pulse_height\"") / empty), \
   sprintf("the long conductor says %.1f %%, and it has almost no signal before the mouth.", 100 * long_max / empty)

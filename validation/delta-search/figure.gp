@@ -15,4 +15,4 @@ set xlabel "{/:Italic δ}"; set ylabel "Δ{/:Italic P} / Δ{/:Italic P} at {/:It
 plot for [i=1:4] table using "bending_ratio":(of(i, "coarse", "pressure_drop") / stiff[i]) with points linetype i title word(names, i), \
   for [i=1:4] table using "bending_ratio":(of(i, "fine", "pressure_drop") / stiff[i]) with points linetype i pointtype 2
 print "**Stiffness.** Pressure drop at the end against the bending stiffness, for runs that pass (open marks; crosses: on the finer mesh).", \
-  "Spheres of radius 0.8 and 0.9 wrinkle at 1e-6 on both meshes: no mark stands there."
+  "Spheres of radius 0.8 and 0.9 wrinkle at 1e-6 on both meshes, so there is no mark."

@@ -26,8 +26,8 @@ plot for [i=1:2] transits using (is_point(word("0 200", i)) * column("seconds") 
     with linespoints linetype 2*i - 1 linewidth 0.5 pointtype 6 pointsize 0.5 title i == 1 ? "estimated" : ""
 unset multiplot
 print "**A red cell through a short pore**, λ = 5, C = 100, ε = 2, δ = 0.01: largest error of velocity and pressure drop along the way (left)", \
-  "and of the time (right) on 64, 88, 112 nodes and ever shorter panels of the wall, from a march on 128; against CPU time, with the companion.", \
-  sprintf("The viscous membrane makes the transit %.2f times as long and a march %.1f times as dear.", slower, dearer)
+  "and of the time (right) on 64, 88, 112 nodes and shorter and shorter panels of the wall, relative to a march on 128; against CPU time, with the companion.", \
+  sprintf("With the viscous membrane the transit takes %.2f times as long, and a march costs %.1f times as much.", slower, dearer)
 
 array names[4] = ["oblate", "biconcave", "transit", "viscous-transit"]
 array titles[4] = ["oblate cell in a mouth", "biconcave cell in a mouth", "red cell", "red cell, {/:Italic μ_s} = 200"]
@@ -50,7 +50,7 @@ set key bottom left
 plot for [i=1:4] costs using (of(i, "dilatation")):(of(i, "area_change")) with linespoints linetype i pointtype 7 pointsize 0.5, \
   [10:1e4] 2 / x with lines linecolor rgb "#808080" title "∝ 1/{/:Italic C}"
 unset multiplot
-print "**Membranes that hardly change their area** (Skalak). Left: steps of a march do not grow with C, velocities and Jacobians do:", \
+print "**Membranes that hardly change their area** (Skalak). Left: with C the velocities and Jacobians of a march grow more than its steps:", \
   sprintf("from C = 100 to 10^4 %.1f to %.1f times the steps, %.1f to %.1f times the CPU time.", \
     lower(lower(ratio(1, 4), ratio(2, 4)), lower(ratio(3, 4), ratio(4, 4))), upper(upper(ratio(1, 4), ratio(2, 4)), upper(ratio(3, 4), ratio(4, 4))), \
     lower(lower(ratio(1, 7), ratio(2, 7)), lower(ratio(3, 7), ratio(4, 7))), upper(upper(ratio(1, 7), ratio(2, 7)), upper(ratio(3, 7), ratio(4, 7)))), \

@@ -25,4 +25,4 @@ plot for [i=1:3] limit(word("0.2 1 5", i) + 0, 0) using 1:6 with linespoints lin
 unset multiplot
 print "**Spheres at rest.** Left: rates at which P_2 and P_3 decay, exact (lines) and by the solver (points): all rates of P_2 to P_6,", \
   "for two laws, with and without pre-stress, bending and viscosity of the membrane,", sprintf("agree within %.0e.", error_max), \
-  sprintf("Right: how Skalak's membrane comes to one of constant area: in proportion to 1/C, within %.0e at C = 10^4.", excess_max)
+  sprintf("Right: distance of Skalak's membrane from one of constant area: it falls as 1/C, and is within %.0e at C = 10^4.", excess_max)

@@ -27,8 +27,8 @@ plot rows using ($0 - 0.24):"radial_predicted" with points linetype 1 pointtype 
   rows using ($0 + 0.08):"axial_predicted" with points linetype 2 pointtype 1 pointsize 1.5 title "max |{/:Italic v_x - v}_g|: small motions", \
   rows using ($0 + 0.16):"axial_in_paper" with points linetype 2 pointtype 4 title "march in the paper's tube", \
   rows using ($0 + 0.24):"axial_published" with points linetype 2 pointtype 7 title "published"
-print "**The residual velocities of Tables 1 and 2.** Those of a march at x_g = 9, carried on by all small motions about the steady state to", \
-  "where the tables were read off; marches in the paper's tube; and published ones.", \
+print "**The residual velocities of Tables 1 and 2.** Those of a march at x_g = 9, continued by all small motions about the steady state to", \
+  "the place of the tables; marches in the paper's tube; and published ones.", \
   sprintf("For λ = 10, max |v_r| is %.2e by the small motions, %.2e in the march, %.2e in the table; max |v_x - v_g| is %.2e, %.2e and %.2e.", \
     cell_of("Table 2 10", "radial_predicted"), cell_of("Table 2 10", "radial_in_paper"), cell_of("Table 2 10", "radial_published"), \
     cell_of("Table 2 10", "axial_predicted"), cell_of("Table 2 10", "axial_in_paper"), cell_of("Table 2 10", "axial_published")), \

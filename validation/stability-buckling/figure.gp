@@ -22,7 +22,7 @@ plot for [n in "40 64 80"] thresholds using "capillary_number":(of(n + 0, "stiff
   for [k in "3 5 6"] thresholds using "capillary_number":(dents(10 ** -k)) with points linetype 4 pointtype 2 * k - 1 \
     title "dents of 10^{-".k."}, 80 nodes", \
   thresholds using "capillary_number":(of(80, "predicted")) with lines linetype 5 title "static buckling of a sphere"
-print "**Wrinkles.** Smallest bending stiffness with which dents of a given depth (in radii), the same on every mesh, become no", \
+print "**Wrinkles.** Smallest bending stiffness with which dents of a given depth (in radii), the same on every mesh, do not become", \
   "wrinkles on the way of a neo-Hookean sphere of radius 0.8 into the tube. With dents of a ten-thousandth:", \
   sprintf("from %.1e to %.1e on 80 nodes (%.1e to %.1e on 40), and from %.1e to %.1e with dents of 1e-6 to 1e-3.", \
     fine_min, fine_max, coarse_min, coarse_max, shallow_min, deep_max), \
@@ -36,8 +36,8 @@ plot wrinkles using "stiffness":"length" with points linetype 1 title "first wri
   wrinkles using "stiffness":"fastest" with linespoints linetype 2 title "fastest growth", \
   2 * pi * (x * 0.64 / 3) ** 0.25 with lines linetype 3 title "2π ({/:Italic δR}^2/{/:Italic E}_s)^{1/4}, static", \
   pi * 0.8 / 96 * 2 with lines linetype 4 title "two nodes"
-print "**Length of the first wrinkles** along the undeformed meridian against the stiffness, on 96 nodes. Where the mesh carries the", \
-  "waves that a compressed membrane between two liquids lets grow fastest, δ = 1e-5, the wrinkles are", \
+print "**Length of the first wrinkles** along the undeformed meridian against the stiffness, on 96 nodes. Where the mesh resolves the", \
+  "waves that grow fastest in a compressed membrane between two liquids, δ = 1e-5, the wrinkles are", \
   sprintf("%.2f times as long as these and %.2f times as long as the static buckles of a sphere; softer membranes wrinkle as short", \
     fastest_mean, static_mean), \
   sprintf("as mesh and dents allow, down to %.3f. They begin at %.2f to %.2f of the meridian from the rear.", \

@@ -38,5 +38,5 @@ plot for [i = 1:words(sizes) - 1] meshes using ($2 == word(sizes, i) + 0 ? $1 : 
   for [i = 1:words(sizes) - 1] meshes using ($2 == word(sizes, i) + 0 ? $1 : NaN):"pressure_error" with linespoints linetype i \
     linewidth 0.7 pointsize 0.5 title "Δ{/:Italic P}, ".word(sizes, i)." nodes"
 print "**What a mesh resolves.** Errors of the largest curvature and of the pressure drop against ".finest." nodes. Lines end with the last", \
-  "membrane for which Newton's method finds a solution on the mesh; for softer ones the program says unresolved. The pressure drop hardly knows", \
-  sprintf("of the fold's sharpness: a mesh fails before it is wrong by more than %.1e.", worst)
+  "membrane for which Newton's method finds a solution on the mesh; for softer ones the program says unresolved. The pressure drop hardly depends", \
+  sprintf("on the curvature of the fold: a mesh fails before it is wrong by more than %.1e.", worst)

@@ -21,11 +21,11 @@ plot marches using ($1 > 0 ? $1 : NaN):"end" with points linetype 1 pointsize 1.
   marches using ($1 > 0 ? $1 : NaN):"time" with points linetype 2 title "to a stretch of 3", \
   [3e-5:4e-3] factor / sqrt(x) + offset with lines linetype 1 title sprintf("%.2f (ε - ε_c)^{-1/2} - %.0f", factor, -offset), \
   predicted / sqrt(x) with lines linetype 3 title "2π / slowest rate at the same distance below"
-print "**A saddle-node's ghost.** Time that a neo-Hookean sphere (R_eq = 0.7, δ = 0.01) takes in an endless tube from rest until the program", \
-  sprintf("calls it unbounded, just above its fold (ε = %.6f, stretch %.2f). Without the constant part, spent on both sides of the", fold, fold_stretch), \
+print "**Slow passage at a fold.** Time that a neo-Hookean sphere (R_eq = 0.7, δ = 0.01) takes in an endless tube from rest until the program", \
+  sprintf("calls it unbounded, just above its fold (ε = %.6f, stretch %.2f). Without its constant part, spent before and after the", fold, fold_stretch), \
   sprintf("passage, it goes like (ε - ε_c)^{%.3f}; the factor is %.2f, and %.2f by the eigenvalue of the stable states below.", \
     exponent, factor, predicted), \
-  sprintf("A stretch of 3 is so little beyond the fold's that the time to it still goes like (ε - ε_c)^{%.2f}.", exponent_to_3)
+  sprintf("A stretch of 3 is only a little above that of the fold, so the time to it still goes like (ε - ε_c)^{%.2f}.", exponent_to_3)
 
 eval figure("stability-runaway-histories", 12, 9)
 set logscale x; set xrange [1:1000]; set yrange [1:4.2]
@@ -37,6 +37,6 @@ plot for [i = 1:words(values)] histories using (abs($1 - word(values, i)) < 1e-1
     linetype (word(values, i) + 0 > fold ? 2 : 1) title i == 1 ? "above the fold" : i == words(values) ? "below" : ""
 print sprintf("**Above and below the fold.** Largest stretch against time for %d capillary numbers within %.3f of the fold (dotted: stretch there).", \
     words(values), abs(word(values, 1) - fold)), \
-  "Below it capsules come to rest, above they linger, the longer the nearer, and run away; each march ends as unbounded.", \
-  sprintf("The paper's pore is too short to tell: at ε_c + %.3f the capsule has %s x_g = %.1f with a stretch of %.2f.", \
+  "Below the fold capsules come to rest. Above it they stay near the fold, longer when they are closer to it, and then run away; each march ends as unbounded.", \
+  sprintf("The paper's pore is too short to see this: at ε_c + %.3f the capsule has %s x_g = %.1f with a stretch of %.2f.", \
     number(pore(4, 1)), pore(4, 2), number(pore(4, 3)), number(pore(4, 4)))

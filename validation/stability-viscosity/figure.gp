@@ -22,10 +22,10 @@ plot systems using "viscosity_ratio":"condition" with points linetype 1 title "c
   larger(x) with lines linetype 1 linecolor rgb "#808080" title "∝ larger of {/:Italic λ}, 1/{/:Italic λ}", \
   entrances using "viscosity_ratio":"seconds" axes x1y2 with linespoints linetype 2 title "seconds"
 print "**Viscosity ratios from 0.001 to 1000.** The condition number of the membrane's system grows like the larger of λ", \
-  sprintf("and 1/λ, up to %.0f, because its smallest eigenvalue is the smaller of 1 and λ: so found within %.0e.", \
+  sprintf("and 1/λ, up to %.0f, because its smallest eigenvalue is the smaller of 1 and λ, which the solver finds within %.0e.", \
     condition_max, eigenvalue_max), \
-  sprintf("The inverse of the shape one step before needs %.0f to %.0f corrections for ten digits. All entrances reach", \
+  sprintf("With the inverse of the previous shape the solver needs %.0f to %.0f corrections for ten digits. All entrances reach", \
     corrections_min, corrections_max), \
-  sprintf("x_g = 1, in at most %.1f times the time of λ = 1; the volume keeps within %.0e, and the pressure drop of one steady", \
+  sprintf("x_g = 1, in at most %.1f times the time of λ = 1; the volume changes by less than %.0e, and the pressure drop of one steady", \
     seconds_max / one_max, volume_max), \
-  sprintf("shape depends on λ by at most %.0e, as the velocity of %.0e that is left there lets expect.", steady_max, residual_max)
+  sprintf("shape depends on λ by at most %.0e, which is in proportion to the velocity of %.0e that remains.", steady_max, residual_max)

@@ -26,7 +26,7 @@ plot for [i = 1:4] branches using (stable(sphere[i], "capillary_number")):"defor
     title i == 1 ? "small deformations" : "", \
   folds using ($1 + 0 == stiff + 0 ? $2 : NaN):"deformation" with points linetype 1 pointtype 7 title "fold"
 print "**Spheres in a uniaxial extension.** Steady deformation against capillary number (δ = 0.01). Thin lines: theory of small", \
-  sprintf("deformations, whose slopes (%.3f; %.3f, %.3f, %.3f for C = 0, 1, 10) ours meet within %.0e.", \
+  sprintf("deformations, whose slopes (%.3f; %.3f, %.3f, %.3f for C = 0, 1, 10) agree with ours within %.0e.", \
     slope(sphere[1]), slope(sphere[2]), slope(sphere[3]), slope(sphere[4]), slope_error), \
   sprintf("The neo-Hookean branch turns back at Ca = %.6f (%.6f with δ = 0.001), stretched %.2f times, and is unstable from there;", \
     fold(stiff, "capillary_number"), fold(soft, "capillary_number"), fold(stiff, "max_stretch")), \

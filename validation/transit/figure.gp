@@ -21,8 +21,8 @@ set ylabel "Δ{/:Italic R} / ({/:Italic ρ}/π{/:Italic R}_t)"; set yrange [0:*]
 plot for [k=1:5] data using "x":(of(word(radii, k) + 0, column("resistance"))) with lines linetype k
 unset multiplot
 print "**Rigid spheres through a pore.** Velocity at constant flow rate (thin: at constant pressure, the two largest),", \
-  "flow rate at constant pressure, and what they add to the resistance. Small spheres go with the liquid on the axis,", \
-  "large ones are slower in the tube. Those of 0.5 to 0.8 hold the flow up most half a radius before the mouth."
+  "flow rate at constant pressure, and what they add to the resistance. Small spheres move with the liquid on the axis,", \
+  "large ones are slower in the tube. Those of 0.5 to 0.8 reduce the flow rate most half a radius before the mouth."
 
 eval figure("resistance", 10, 7)
 set logscale xy; set format y "10^{%T}"; set xrange [*:*] reverse
