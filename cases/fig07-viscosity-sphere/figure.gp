@@ -40,7 +40,7 @@ eval view(last_x_g - 1.14, last_x_g + 1.26, 0, 1.3)
 set xtics 0.5; set ytics 0.5
 set key at last_x_g + 0.51, 0.65
 plot @wall, for [i=1:count] profiles(run(i)) using (at_x_g(last_x_g, "x")):"r" with lines linetype line(i) title name(i)
-print sprintf("**Figure 5a.** Profiles at x_g = %g for different viscosity ratios. They lie on each other:", last_x_g), \
+print sprintf("**Figure 5a.** Profiles at x_g = %g for different viscosity ratios. They agree:", last_x_g), \
   "the steady shape does not depend on the internal liquid."
 
 eval figure("fig07a", 12, 8)

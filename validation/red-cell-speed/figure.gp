@@ -55,3 +55,16 @@ print "**Membranes that hardly change their area** (Skalak). Left: with C the ve
     lower(lower(ratio(1, 4), ratio(2, 4)), lower(ratio(3, 4), ratio(4, 4))), upper(upper(ratio(1, 4), ratio(2, 4)), upper(ratio(3, 4), ratio(4, 4))), \
     lower(lower(ratio(1, 7), ratio(2, 7)), lower(ratio(3, 7), ratio(4, 7))), upper(upper(ratio(1, 7), ratio(2, 7)), upper(ratio(3, 7), ratio(4, 7)))), \
   "Right: the largest change of area of any node at any time."
+
+# All numbers: columns of a file of results by their places, those after the first `plain` ones with two digits, empty for the
+# reference.
+rows_of(file, columns, plain) = system(sprintf("awk -F, -v columns='%s' -v plain=%d 'NR > 1 {n = split(columns, k, \" \"); \
+  for (i = 1; i <= n; ++i) printf(\"%%s%%s\", i > 1 ? \",\" : \"\", i <= plain ? $k[i] : $k[i] == 0 ? \"\" : sprintf(\"%%.1e\", $k[i])); print \"\"}' %s", columns, plain, file))
+eval table("transits")
+print "μ_s,nodes,steps,CPU seconds,transit time,error of the time,estimated,of v_g,estimated,of the pressure drop,estimated"
+print rows_of(transits, "1 2 4 5 6 7 8 9 10 11 12", 5)
+eval end_table("transits")
+eval table("costs")
+print "cell,C,nodes,steps,velocities,Jacobians,CPU seconds,largest change of area"
+print rows_of(costs, "1 2 3 4 5 6 7 8", 7)
+eval end_table("costs")
