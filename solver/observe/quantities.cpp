@@ -23,7 +23,7 @@ constexpr std::array quantities{
     ReportedQuantity{
         .name = "time",
         .meaning =
-            "since the capsule was let go, undeformed, at `capsule.start_x`; of a branch the value of the "
+            "since the capsule was released, undeformed, at `capsule.start_x`; for a branch the value of the "
             "key that varies",
         .value = &SeriesRow::time,
         .unit = second,
@@ -63,15 +63,15 @@ constexpr std::array quantities{
                      .of_the_pore = true,
                      .branch_column = 4},
     ReportedQuantity{.name = "volume_change",
-                     .meaning = "change of the volume relative to the start: zero but for errors",
+                     .meaning = "change of the volume relative to the start: zero except for errors",
                      .value = &SeriesRow::volume_change,
                      .error = ErrorEstimate::by_value_itself,
                      .branch_column = 8},
     ReportedQuantity{
         .name = "pressure_drop_reciprocal",
-        .meaning = "the pressure drop by the reciprocal theorem, which supposes undisturbed flow at the "
-                   "exit: far from it the two differ by the error of the quadrature, near it by what the "
-                   "exit does to the flow",
+        .meaning = "the pressure drop by the reciprocal theorem, which assumes undisturbed flow at the "
+                   "exit: far from the exit the two differ by the error of the quadrature, near it by the "
+                   "influence of the exit on the flow",
         .value = &SeriesRow::pressure_drop_reciprocal,
         .of_the_pore = true},
     ReportedQuantity{
