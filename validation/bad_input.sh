@@ -246,6 +246,7 @@ expect 2 '^give one value for all of the train' \
   "$capsule" steady file.toml --set "capsule.radius=[0.7, 0.8]" --set flow.period=3
 expect 2 '^--set:1:13: error: flow.period = 0.9 of the tube holds less than one capsule' \
   "$capsule" steady file.toml --set flow.period=0.9
+expect 2 "^error: no branch along 'flow_rate'" "$capsule" branch file.toml --along flow_rate --to '5 nl/s'
 expect 2 "^error: no branch along 'flow.period': the case has no train" \
   "$capsule" branch file.toml --along flow.period --to 3
 expect 2 "^--set:1:12: error: unknown flow.drive 'pump'" "$capsule" run file.toml --set flow.drive=pump

@@ -20,6 +20,8 @@
 namespace capsule {
 namespace {
 
+constexpr const char *flow_rate_key = "physical.flow_rate";
+
 constexpr Branch::Steps steps{.first = 0.02, .largest = 0.04, .tolerance = 1e-9};
 constexpr double accuracy_of_folds = 1e-6;
 constexpr int most_nodes_of_a_branch = 300;
@@ -150,16 +152,23 @@ private:
   double part_ = 0;
 };
 
+// Throws InputError where no branch goes along this key.
+void require_key(const Case &input, const std::string &key) {
+  std::vector<std::string> names = parameters_of_steady_states();
+  if (std::ranges::find(names, key) != names.end())
+    return;
+  if (has_physical(input))
+    names.emplace_back(flow_rate_key);
+  const std::string near = nearest_word(key, names);
+  throw InputError(fmt::format("error: no branch along '{}'\n{}it goes along one of {}\n", key,
+                               near.empty() ? "" : fmt::format("did you mean '{}'? ", near),
+                               fmt::join(names, ", ")));
+}
+
 } // namespace
 
 void require_branch(const Case &input, const std::string &key, double to) {
-  const std::vector<std::string> names = parameters_of_steady_states();
-  if (std::ranges::find(names, key) == names.end()) {
-    const std::string near = nearest_word(key, names);
-    throw InputError(fmt::format("error: no branch along '{}'\n{}it goes along one of {}\n", key,
-                                 near.empty() ? "" : fmt::format("did you mean '{}'? ", near),
-                                 fmt::join(names, ", ")));
-  }
+  require_key(input, key);
   if (!means_something(*find_key(key), input))
     throw InputError(
         fmt::format("error: no branch along '{}': {}\n", key, why_meaningless(*find_key(key), input)));
@@ -177,14 +186,15 @@ void require_branch(const Case &input, const std::string &key, double to) {
 }
 
 BranchEnd end_of_branch(const Case &input, const std::string &along, const std::string &to) {
-  const std::string flow_rate = "physical.flow_rate";
-  if (along != flow_rate) {
+  if (along != flow_rate_key) {
     if (const auto value = to_number(to))
       return {along, *value};
+    require_key(input, along);
     throw InputError(fmt::format("error: --to: {}\n", not_a_number(to)));
   }
   if (!has_physical(input))
-    throw InputError(fmt::format("error: no branch along '{}': the case has no physical units\n", flow_rate));
+    throw InputError(
+        fmt::format("error: no branch along '{}': the case has no physical units\n", flow_rate_key));
   const auto read = read_quantity(to, dimension::flow_rate);
   if (const auto *none = std::get_if<NoQuantity>(&read))
     throw InputError(
