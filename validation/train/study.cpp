@@ -78,15 +78,16 @@ std::string rows_of(const Train &train) {
     physics.flow.period = 2 * train.radius + spacing;
     try {
       const Numbers on_coarse = at_parameters(physics, state), on_fine = at_parameters(physics, finer);
+      const SteadyRecord record =
+          record_steady(finer, 1); // of rigid spheres in the strongest of three weak flows
       const Numbers rough = is_rigid ? rigid_limit(physics, state) : on_coarse;
       const Numbers exact = is_rigid ? rigid_limit(physics, finer) : on_fine;
-      const SteadyRecord record = record_steady(finer, 1);
-      rows +=
-          fmt::format("{}{},{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f},{:.6f},{:.6f}",
-                      rows.empty() ? "" : "\n", train.law, train.radius, train.capillary_number,
-                      physics.flow.period, is_rigid ? spacing : record.further.at("min_gap"), exact.speed,
-                      exact.pressure_drop, rough.speed, rough.pressure_drop,
-                      1 + exact.pressure_drop / (8 * physics.flow.period), record.further.at("growth_rate"));
+      rows += fmt::format("{}{},{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f},{:.6f},{:.6f},{:.9f}",
+                          rows.empty() ? "" : "\n", train.law, train.radius, train.capillary_number,
+                          physics.flow.period, is_rigid ? spacing : record.further.at("min_gap"), exact.speed,
+                          exact.pressure_drop, rough.speed, rough.pressure_drop,
+                          1 + exact.pressure_drop / (8 * physics.flow.period),
+                          record.further.at("growth_rate"), record.further.at("pairing_growth_rate"));
     } catch (const NumericsFailure &failure) {
       if (failure.kind != "touching" && failure.kind != "unresolved")
         throw;
@@ -110,12 +111,12 @@ bool study(const std::string &directory, unsigned jobs) {
     tasks.push_back({fmt::format("{} {} {}", train.law, train.radius, train.capillary_number),
                      [=] { return rows_of(train); }});
   Table table("law,radius,capillary_number,period,min_gap,v_g,pressure_drop,coarse_v_g,coarse_pressure_drop,"
-              "apparent_viscosity,growth_rate");
+              "apparent_viscosity,growth_rate,pairing_growth_rate");
   Table reaches("law,radius,capillary_number,one_percent,one_per_mille,closest");
   double apart = 0, from_known = 0;
   std::size_t found = 0, k = 0;
   double at_a_radius = 0; // largest change of the drop at a gap of one
-  bool stable = true;
+  bool stable = true, returns = true;
   for (const std::string &text : make_all(directory, jobs, tasks)) {
     const Train &train = trains[k++];
     table.add(text);
@@ -130,6 +131,7 @@ bool study(const std::string &directory, unsigned jobs) {
       apart = std::max(
           {apart, std::abs(std::stod(cells[7]) / speed - 1), std::abs(std::stod(cells[8]) / drop - 1)});
       stable = stable && std::stod(cells[10]) < 0;
+      returns = returns && (gap > 1.6 || std::stod(cells[11]) < 0);
       if (alone == 0)
         alone = drop;
       const double change = std::abs(drop / alone - 1);
@@ -166,6 +168,7 @@ bool study(const std::string &directory, unsigned jobs) {
       check(as_known, fmt::format("rigid trains are those computed elsewhere, to {:.1e}", from_known));
   holds = check(apart < allowed, fmt::format("two meshes are {:.1e} apart", apart)) && holds;
   holds = check(stable, "equal small motions of a train die away") && holds;
+  holds = check(returns, "neighbours that are moved against each other return, up to gaps of 1.6") && holds;
   return check(at_a_radius < 0.015,
                fmt::format("at a gap of a pore radius drops add up to {:.1f} %", 100 * at_a_radius)) &&
          holds;
