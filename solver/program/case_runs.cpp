@@ -12,6 +12,7 @@
 #include "program/exit_code.hpp"
 #include "program/progress.hpp"
 #include "program/workers.hpp"
+#include "steady/search.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -192,6 +193,7 @@ struct CaseRuns {
       progress.x_g = row.x_g;
       progress.steps = steps;
     };
+    control.spend = [&](double work) { shared.progress(index).work += work; };
     control.interrupted = [&] {
       show_progress();
       return stops();
@@ -255,9 +257,13 @@ struct CaseRuns {
   }
 
   void show_progress() {
-    for (std::size_t i = 0; i < results.size(); ++i)
-      if (const Progress &progress = shared.progress(i); progress.steps > 0)
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const Progress &progress = shared.progress(i);
+      if (progress.steps > 0)
         line.update(input.runs[i].name, input.runs[i].physics, progress.time, progress.x_g, progress.steps);
+      else if (progress.work > 0)
+        line.update_search(input.runs[i].name, progress.work / most_work_of_search);
+    }
   }
 
   void finish(std::size_t index, RunEnd end) {

@@ -17,6 +17,7 @@
 #include "scene/cost.hpp"
 #include "scene/scene.hpp"
 #include "steady/branch.hpp"
+#include "steady/search.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
 #include <cmath>
@@ -100,6 +101,9 @@ std::vector<std::string> remarks_on(const CaseInput &input) {
     remarks.push_back(
         fmt::format("in the tube capsules move as if alone, to this accuracy, beyond a gap of about {:.1f}",
                     gap_without_interaction(accuracy)));
+  remarks.push_back(
+      fmt::format("`steady` searches for {} of one core at most, most often for less than a second",
+                  duration_text(seconds_of_search(most_work_of_search))));
   return remarks;
 }
 

@@ -29,20 +29,44 @@ double fraction_done(const Case &physics, double time, double x_g) {
   return std::clamp(fraction, 0.0, 1.0);
 }
 
-void ProgressLine::update(const std::string &run, const Case &physics, double time, double x_g, long steps) {
-  if (!shown)
-    return;
+// The run with its time left, once there is something to tell.
+ProgressLine::Run *ProgressLine::longer_than_a_second(const std::string &run, double fraction) {
   const Clock::time_point now = Clock::now();
-  const double fraction = fraction_done(physics, time, x_g);
   Run &this_run = runs.try_emplace(run, Run{now, fraction, 0, ""}).first->second;
   const double seconds = std::chrono::duration<double>(now - this_run.began).count();
   const double gained = fraction - this_run.fraction_at_first;
   if (seconds < 1 || gained <= 0)
-    return;
+    return nullptr;
   this_run.seconds_left = seconds * (1 - fraction) / gained;
-  this_run.text = fmt::format("{}{}t {:7.3f}  x_g {:7.3f}  step {:6}  {:3.0f} %  {:>6} left", run,
-                              run.empty() ? "" : "  ", time, x_g, steps, 100 * fraction,
-                              duration_text(this_run.seconds_left));
+  return &this_run;
+}
+
+void ProgressLine::update(const std::string &run, const Case &physics, double time, double x_g, long steps) {
+  if (!shown)
+    return;
+  const double fraction = fraction_done(physics, time, x_g);
+  Run *this_run = longer_than_a_second(run, fraction);
+  if (this_run == nullptr)
+    return;
+  this_run->text = fmt::format("{}{}t {:7.3f}  x_g {:7.3f}  step {:6}  {:3.0f} %  {:>6} left", run,
+                               run.empty() ? "" : "  ", time, x_g, steps, 100 * fraction,
+                               duration_text(this_run->seconds_left));
+  show_longest();
+}
+
+void ProgressLine::update_search(const std::string &run, double part) {
+  if (!shown)
+    return;
+  Run *this_run = longer_than_a_second(run, std::min(part, 1.0));
+  if (this_run == nullptr)
+    return;
+  this_run->text = fmt::format("{}{}searching for a steady state, for {} more at most", run,
+                               run.empty() ? "" : "  ", duration_text(this_run->seconds_left));
+  show_longest();
+}
+
+void ProgressLine::show_longest() {
+  const Clock::time_point now = Clock::now();
   if (now - last_shown < std::chrono::milliseconds(200))
     return;
   last_shown = now;

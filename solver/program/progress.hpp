@@ -21,6 +21,8 @@ public:
 
   // Shows the run that will take longest. Nothing is shown in a run's first second.
   void update(const std::string &run, const Case &physics, double time, double x_g, long steps);
+  // The same of a search for a steady state, which has done this part of what it may cost; most end long before.
+  void update_search(const std::string &run, double part);
   void finish(const std::string &run);
   // Prints a line that stays, on standard output.
   void print(const std::string &line);
@@ -36,6 +38,8 @@ private:
     std::string text;
   };
 
+  Run *longer_than_a_second(const std::string &run, double fraction);
+  void show_longest();
   void clear();
 
   bool shown;

@@ -11,9 +11,10 @@ namespace capsule {
 // What a task's process tells the first process.
 struct Progress {
   std::atomic<double> time, x_g;
-  std::atomic<long> steps; // 0: nothing yet
-  std::atomic<int> result; // of the task
-  char error[1000];        // what it threw
+  std::atomic<long> steps;  // 0: nothing yet
+  std::atomic<double> work; // of a search for a steady state (Control::spend)
+  std::atomic<int> result;  // of the task
+  char error[1000];         // what it threw
 };
 
 // Memory that all processes see.

@@ -38,4 +38,9 @@ double estimated_seconds(const Case &physics) {
   return capsules * whole_entrance * std::pow(chosen.membrane_nodes / 64.0, 2) * duration / 25;
 }
 
+double seconds_of_search(double work) {
+  constexpr double linearisation = 5e-3; // on 48 nodes
+  return linearisation * work;
+}
+
 } // namespace capsule

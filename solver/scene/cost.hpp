@@ -7,5 +7,7 @@ namespace capsule {
 struct Case;
 
 double estimated_seconds(const Case &physics);
+// Of a search for a steady state, by its work (Control::spend).
+double seconds_of_search(double work);
 
 } // namespace capsule

@@ -239,16 +239,15 @@ SteadyState searched(const Case &input, const Control &control, std::vector<std:
                                                           : first->advice);
 }
 
-// Within the work that a search may cost: some hundred times that of most capsules.
+// Within the work that a search may cost.
 SteadyState without_neighbours(const Case &input, const Control &control) {
-  constexpr double most_work = 2500;
   double work = 0;
   Control limited = control;
   limited.spend = [&](double more) {
     if (control.spend)
       control.spend(more);
     work += more;
-    if (work > most_work)
+    if (work > most_work_of_search)
       throw Exhausted{};
   };
   std::vector<std::string> tried;

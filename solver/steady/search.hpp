@@ -11,6 +11,10 @@
 
 namespace capsule {
 
+// What a search may cost, in linearisations of a steady state on 48 nodes (Control::spend): some hundred times the work of
+// most.
+constexpr double most_work_of_search = 1600;
+
 // Throws NumericsFailure, of the kind "fold" when there is no steady state because the branch of growing capillary
 // numbers turns back and the membrane runs away behind the fold: the text says where. Any other turn says nothing
 // about the case, and is "unresolved"; "unbounded" where the capsule ran away in the last flow that was tried. Throws

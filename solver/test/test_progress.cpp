@@ -90,6 +90,18 @@ BOOST_AUTO_TEST_CASE(fraction_of_the_way) {
   BOOST_TEST(fraction_done(physics, 100, 4) == 1);
 }
 
+// A search tells how long it may still take, and nothing in its first second.
+BOOST_AUTO_TEST_CASE(a_search_is_shown) {
+  ProgressLine line(true);
+  const std::string text = written_to(STDERR_FILENO, [&] {
+    line.update_search("capsule", 0.1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1010));
+    line.update_search("capsule", 0.6);
+  });
+  BOOST_TEST(text.find("capsule  searching for a steady state, for 1 s more at most") != std::string::npos);
+  BOOST_TEST(written_to(STDERR_FILENO, [&] { line.finish("capsule"); }) == "\r\033[K");
+}
+
 // Of two runs as old as each other the one with less behind it is shown, with the time that its pace lets expect.
 BOOST_AUTO_TEST_CASE(the_longest_run_is_shown) {
   const Case physics = half_a_way();
