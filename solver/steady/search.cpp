@@ -2,7 +2,10 @@
 #include "base/failure.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
+#include "motion/march.hpp"
+#include "scene/resolution.hpp"
 #include "steady/fold_curve.hpp"
+#include "steady/from_profile.hpp"
 #include "steady/homotopy.hpp"
 #include "steady/newton.hpp"
 #include "steady/relaxation.hpp"
@@ -103,6 +106,38 @@ SteadyState by_relaxation(const Case &target, const Control &control) {
   else
     state = relaxed_on_mesh(target, finer_mesh(static_cast<int>(state.system->nodes())), state, control);
   return state;
+}
+
+// Whether a march of the case flows at the rate of its steady state.
+bool can_march(const Case &input) {
+  return input.flow.type == FlowType::pore && input.flow.drive == DriveBy::flow_rate;
+}
+
+// The shape at the end of a march from the case's own start, far into the tube.
+SteadyState by_march(const Case &target, const Control &control) {
+  constexpr double way = 16, beyond = 8;
+  constexpr double step = 0.15; // of a march, in linearisations
+  Case input = target;
+  input.accuracy = 1e-4; // a coarser mesh wrinkles
+  if (input.pore.shape == PoreShape::two_mouths)
+    input.pore.shape = PoreShape::hyperbolic;
+  input.flow.viscosity_ratio = 1; // no steady shape depends on it, or on the membrane's friction
+  input.membrane.viscosity = {};
+  input.time = {};
+  input.output = {};
+  input.until = {};
+  input.until.x_g = input.capsule.start_x + way;
+  input.pore.exit_x = *input.until.x_g + beyond;
+  const double nodes = choose_resolution(input).membrane_nodes;
+  Control each_step;
+  each_step.interrupted = [&] {
+    spend(control, step, nodes);
+    return false;
+  };
+  const Outcome outcome = march_once(input, {}, each_step, Role::main);
+  if (outcome.status != Status::reached)
+    throw NumericsFailure(outcome.failure, outcome.message, "");
+  return from_profile(target, outcome.last.profiles.back(), control);
 }
 
 // Everything but the capillary number, in a flow of given strength: where the flow is not too weak, a shell gets thin
@@ -212,6 +247,12 @@ SteadyState searched(const Case &input, const Control &control, std::vector<std:
     if (last->kind == failure_kind::unbounded && !std::exchange(has_run_away, true))
       if (const auto fold = fold_of_weaker_flow(input, control))
         throw NumericsFailure(*fold);
+    if (part == 1 && last->kind == failure_kind::unresolved && can_march(input))
+      try {
+        return by_march(input, control);
+      } catch (const NumericsFailure &failure) {
+        tried.push_back(fmt::format("marched: {}", failure.what()));
+      }
   }
   if (input.capsule.shape != CapsuleShape::spheroid) // a small stiff sphere does not become one
     throw NumericsFailure(last.value());
