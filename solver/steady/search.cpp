@@ -224,7 +224,10 @@ SteadyState searched(const Case &input, const Control &control, std::vector<std:
   const double flow = input.flow.capillary_number;
   std::optional<NumericsFailure> last;
   bool has_run_away = false;
-  for (const double part : {1.0, 0.5, 0.25, 0.125}) { // of the flow, in which the capsule may come to rest
+  constexpr double weakest_part = 0.125;
+  // Parts of the flow, in which the capsule may come to rest. Just below where a law softens coarse meshes mislead.
+  for (double part = 1; part >= weakest_part;
+       part = last->kind == failure_kind::softening && part > weakest_part ? weakest_part : part / 2) {
     Case weaker = input;
     weaker.flow.capillary_number *= part;
     for (const char *key : area_keys)

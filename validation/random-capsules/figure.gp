@@ -1,0 +1,25 @@
+verdicts = "results/".case."/verdicts.csv"
+count(condition) = number(system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} ".condition." {n++} END {print n + 0}' ".verdicts))
+value(command) = number(system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} {print $k[\"seconds\"]}' ".verdicts." | sort -g | ".command))
+of(law, verdict) = "<awk -F, 'NR == 1 || ($2 == \"".law."\" && ".verdict.")' ".verdicts
+found = "$8 == \"steady\""
+ends = "($8 == \"fold\" || $8 == \"softening\")"
+unresolved = "$8 != \"steady\" && $8 != \"fold\" && $8 != \"softening\""
+
+eval figure("verdicts", 16, 8)
+set multiplot layout 1,2
+set logscale x; set xrange [8e-4:0.4]; set yrange [0.25:1.35]; set format x "10^{%T}"
+set xlabel "ε"; set ylabel "{/:Italic R}_{eq} / {/:Italic R}_t"
+set key outside bottom center horizontal
+do for [law in "neo-hookean skalak"] {
+  set title law eq "skalak" ? "Skalak" : "neo-Hookean"
+  plot of(law, found) using "capillary_number":"R_eq" with points linetype 1 pointtype 6 pointsize 0.5 title "found", \
+    of(law, ends) using "capillary_number":"R_eq" with points linetype 2 pointtype 5 pointsize 0.5 title "none: fold or softening", \
+    of(law, unresolved) using "capillary_number":"R_eq" with points linetype 3 pointtype 2 pointsize 0.7 title "not found"
+}
+unset multiplot
+print sprintf("**Steady states of %d random capsules.** Found: %d; a fold ends the branch before: %d; the law softens before: %d; not found: %d.", \
+    count("$8 != \"\""), count(found), count("$8 == \"fold\""), count("$8 == \"softening\""), count(unresolved)), \
+  sprintf("The median search took %.2f s of one core, the longest %.0f s. Of %d marches that arrive, %d end within 10^{-3} of the steady state.", \
+    value("awk '{a[NR] = $1} END {print a[int((NR + 1)/2)]}'"), value("tail -1"), count("$14 == \"reached\""), \
+    count("$14 == \"reached\" && $15 < 1e-3 && $16 < 1e-3"))

@@ -1,0 +1,132 @@
+// Capsules that are in no other file: are their steady states found, what is said where they are not, and does a march end
+// in the same state?
+#include "study.hpp"
+#include "base/csv.hpp"
+#include "law/neo_hookean.hpp"
+#include "law/skalak.hpp"
+#include "motion/motion.hpp"
+#include "steady/steady_state.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <random>
+
+using namespace capsule;
+
+namespace {
+
+constexpr int capsules = 200;
+constexpr int marched_every = 5;       // of the capsules
+constexpr double allowed_apart = 1e-3; // march and steady state, relative, in speed and pressure drop
+
+// Numbers that are the same with any library.
+class Sample {
+public:
+  double between(double low, double high) { return low + (high - low) * uniform(); }
+  double log_between(double low, double high) { return low * std::pow(high / low, uniform()); }
+  bool coin() { return uniform() < 0.5; }
+
+private:
+  double uniform() { return std::ldexp(static_cast<double>(random_() >> 11), -53); }
+  std::mt19937_64 random_{20261130};
+};
+
+std::vector<Case> sample() {
+  Sample of;
+  std::vector<Case> cases(capsules);
+  for (Case &c : cases) {
+    c.capsule.radius = of.between(0.3, 1.3);
+    c.capsule.aspect_ratio = of.log_between(0.28, 2.5);
+    c.flow.capillary_number = of.log_between(1e-3, 0.3);
+    c.membrane.bending_ratio = of.log_between(1e-6, 1e-2);
+    const bool is_skalak = of.coin(), resists_area = of.coin();
+    const double dilatation = of.log_between(0.1, 100);
+    if (is_skalak)
+      c.membrane.law = {skalak, {resists_area ? dilatation : 0}};
+  }
+  return cases;
+}
+
+// From the mouth into a tube that is long enough to come to rest.
+std::string march_columns(Case physics, const SeriesRow &steady_row) {
+  physics.until.x_g = 20;
+  physics.pore.exit_x = 28;
+  const Outcome outcome = march(physics, {}, {});
+  if (outcome.status != Status::reached)
+    return fmt::format("{},,", outcome.failure.empty() ? word_of(outcome.status) : outcome.failure);
+  const SeriesRow &end = outcome.last.series.back();
+  return fmt::format("reached,{:.3g},{:.3g}", std::abs(end.v_g / steady_row.v_g - 1),
+                     std::abs(end.pressure_drop / steady_row.pressure_drop - 1));
+}
+
+std::string row_of(const Case &physics, int number) {
+  const double before = cpu_seconds();
+  const Outcome found = steady(physics, {}, {});
+  const double seconds = cpu_seconds() - before;
+  const bool is_skalak = physics.membrane.law.is(skalak);
+  std::string row = fmt::format(
+      "{},{},{},{:.4f},{:.4f},{:.5g},{:.4g}", number, is_skalak ? "skalak" : "neo-hookean",
+      is_skalak ? fmt::format("{:.4g}", physics.membrane.law.values()[0]) : "", physics.capsule.radius,
+      physics.capsule.aspect_ratio, physics.flow.capillary_number, physics.membrane.bending_ratio);
+  if (found.status != Status::steady)
+    return row + fmt::format(",{},,,,,{:.3g},,,", found.failure, seconds);
+  const SeriesRow &state = found.last.series.at(0);
+  return row + fmt::format(",steady,{:.8g},{:.8g},{:.3g},{},{:.3g},{}", state.v_g, state.pressure_drop,
+                           found.further.at("growth_rate"), found.membrane_nodes, seconds,
+                           number % marched_every == 0 ? march_columns(physics, state) : ",,");
+}
+
+bool study(const std::string &directory, unsigned jobs) {
+  std::vector<TextTask> tasks;
+  for (const Case &physics : sample()) {
+    const int number = static_cast<int>(tasks.size()) + 1;
+    tasks.push_back({fmt::format("{}", number), [=] { return row_of(physics, number); }});
+  }
+  const std::string header =
+      "number,law,dilatation,R_eq,aspect_ratio,capillary_number,bending_ratio,verdict,v_g,pressure_drop,"
+      "growth_rate,nodes,seconds,march,v_g_apart,pressure_drop_apart";
+  const std::vector<std::string> names = split_csv(header);
+  Table table(header);
+  std::map<std::string, int> verdicts;
+  std::vector<double> seconds;
+  int unstable = 0, compared = 0, apart = 0;
+  double worst = 0;
+  for (const std::string &line : make_all(directory, jobs, tasks)) {
+    table.add(line);
+    const std::vector<std::string> fields = split_csv(line);
+    const auto text = [&](const char *name) {
+      return fields.at(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
+    };
+    const auto value = [&](const char *name) { return std::stod(text(name)); };
+    ++verdicts[text("verdict")];
+    seconds.push_back(value("seconds"));
+    unstable += text("verdict") == "steady" && value("growth_rate") > 0 ? 1 : 0;
+    if (text("march") != "reached")
+      continue;
+    const double distance = std::max(value("v_g_apart"), value("pressure_drop_apart"));
+    ++compared;
+    worst = std::max(worst, distance);
+    apart += distance > allowed_apart ? 1 : 0;
+  }
+  table.write(directory + "/verdicts.csv");
+  for (const auto &[verdict, count] : verdicts)
+    fmt::print("{}: {}\n", verdict, count);
+  std::ranges::sort(seconds);
+  const int told = verdicts["steady"] + verdicts["fold"] + verdicts["softening"];
+  bool holds = check(told >= 0.97 * capsules,
+                     fmt::format("{} of {} end as found, or where a branch or a law ends", told, capsules));
+  holds &= check(unstable == 0, fmt::format("{} of the states found are unstable", unstable));
+  holds &= check(
+      seconds.back() < 20 * seconds[capsules / 2],
+      fmt::format("the longest search took {:.1f} times the median", seconds.back() / seconds[capsules / 2]));
+  holds &= check(apart == 0,
+                 fmt::format("of {} marches that arrive {} end in another state; largest distance {:.1e}",
+                             compared, apart, worst));
+  return holds;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+  return study_main(argc, argv, study);
+}
