@@ -10,6 +10,7 @@
 #include "case/physical.hpp"
 #include "case/value_lists.hpp"
 #include "compare/text_table.hpp"
+#include "motion/to_rest.hpp"
 #include "output/tables.hpp"
 #include "program/fit_profiles.hpp"
 #include "program/progress.hpp"
@@ -158,7 +159,7 @@ ExitCode find_steady_states(const Arguments &arguments) {
                              digest(read_file(fs::path(arguments.from) / "profiles.csv")));
   }
   const Method method = [&](const Case &physics, const Checkpoint & /*none is saved*/,
-                            const Control &control) { return steady(physics, from, control); };
+                            const Control &control) { return steady(physics, from, control, march_to_rest); };
   return compute_runs(read_case_of(arguments, task), arguments, {task, method});
 }
 
@@ -171,7 +172,7 @@ ExitCode follow_branches(const Arguments &arguments) {
     require_branch(physics, end(physics).key, end(physics).value);
   const Method method = [&](const Case &physics, const Checkpoint & /*none is saved*/,
                             const Control &control) {
-    return follow_branch(physics, end(physics).key, end(physics).value, control);
+    return follow_branch(physics, end(physics).key, end(physics).value, control, march_to_rest);
   };
   return compute_runs(different_branches(std::move(input), task, end), arguments, {task, method});
 }

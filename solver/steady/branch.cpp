@@ -203,7 +203,8 @@ BranchEnd end_of_branch(const Case &input, const std::string &along, const std::
           input.flow.capillary_number * std::get<Quantity>(read).si / physical_scales(input).flow_rate};
 }
 
-Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control) {
+Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control,
+                      const MarchToRest &march) {
   require_branch(asked, key, to);
   Case input = asked;
   input.accuracy = std::min(asked.accuracy, accuracy_of_folds);
@@ -211,7 +212,7 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
   Outcome &outcome = follower.outcome();
   outcome.along = key;
   try {
-    follower.begin(refine(input, find_steady(input, {}, control), control));
+    follower.begin(refine(input, find_steady(input, {}, control, march), control));
     while (!follower.advance()) {
     }
     outcome.membrane_nodes = follower.nodes();

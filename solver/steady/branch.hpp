@@ -1,6 +1,7 @@
 #pragma once
 // The branch of a case's steady states along one of its keys, through folds.
 #include "observe/outcome.hpp"
+#include "steady/search.hpp"
 
 namespace capsule {
 
@@ -11,7 +12,8 @@ struct Case;
 // profiles the first point, the folds and the last point. Status: reached; unbounded if the membrane stretches
 // beyond runaway_stretch behind a fold, or much further without one; failed. Throws what require_branch throws. The
 // accuracy is at least 1e-6.
-Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control);
+Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control,
+                      const MarchToRest &march = {});
 
 // Throws InputError unless the key is a number that steady states depend on and `to` is in its range and not
 // where the branch begins.

@@ -2,8 +2,6 @@
 #include "base/failure.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
-#include "motion/march.hpp"
-#include "scene/resolution.hpp"
 #include "steady/fold_curve.hpp"
 #include "steady/from_profile.hpp"
 #include "steady/homotopy.hpp"
@@ -108,38 +106,6 @@ SteadyState by_relaxation(const Case &target, const Control &control) {
   return state;
 }
 
-// Whether a march of the case flows at the rate of its steady state.
-bool can_march(const Case &input) {
-  return input.flow.type == FlowType::pore && input.flow.drive == DriveBy::flow_rate;
-}
-
-// The shape at the end of a march from the case's own start, far into the tube.
-SteadyState by_march(const Case &target, const Control &control) {
-  constexpr double way = 16, beyond = 8;
-  constexpr double step = 0.15; // of a march, in linearisations
-  Case input = target;
-  input.accuracy = 1e-4; // a coarser mesh wrinkles
-  if (input.pore.shape == PoreShape::two_mouths)
-    input.pore.shape = PoreShape::hyperbolic;
-  input.flow.viscosity_ratio = 1; // no steady shape depends on it, or on the membrane's friction
-  input.membrane.viscosity = {};
-  input.time = {};
-  input.output = {};
-  input.until = {};
-  input.until.x_g = input.capsule.start_x + way;
-  input.pore.exit_x = *input.until.x_g + beyond;
-  const double nodes = choose_resolution(input).membrane_nodes;
-  Control each_step;
-  each_step.interrupted = [&] {
-    spend(control, step, nodes);
-    return false;
-  };
-  const Outcome outcome = march_once(input, {}, each_step, Role::main);
-  if (outcome.status != Status::reached)
-    throw NumericsFailure(outcome.failure, outcome.message, "");
-  return from_profile(target, outcome.last.profiles.back(), control);
-}
-
 // Everything but the capillary number, in a flow of given strength: where the flow is not too weak, a shell gets thin
 // without buckling.
 Homotopy in_a_flow(double strength, const Case &target, const Control &control) {
@@ -220,7 +186,8 @@ std::optional<NumericsFailure> fold_of_weaker_flow(const Case &input, const Cont
 }
 
 // What it tried and saw is added to `tried`.
-SteadyState searched(const Case &input, const Control &control, std::vector<std::string> &tried) {
+SteadyState searched(const Case &input, const Control &control, const MarchToRest &march,
+                     std::vector<std::string> &tried) {
   const double flow = input.flow.capillary_number;
   std::optional<NumericsFailure> last;
   bool has_run_away = false;
@@ -250,9 +217,10 @@ SteadyState searched(const Case &input, const Control &control, std::vector<std:
     if (last->kind == failure_kind::unbounded && !std::exchange(has_run_away, true))
       if (const auto fold = fold_of_weaker_flow(input, control))
         throw NumericsFailure(*fold);
-    if (part == 1 && last->kind == failure_kind::unresolved && can_march(input))
+    if (part == 1 && last->kind == failure_kind::unresolved && march)
       try {
-        return by_march(input, control);
+        if (const auto end = march(input, control))
+          return from_profile(input, *end, control);
       } catch (const NumericsFailure &failure) {
         tried.push_back(fmt::format("marched: {}", failure.what()));
       }
@@ -284,7 +252,7 @@ SteadyState searched(const Case &input, const Control &control, std::vector<std:
 }
 
 // Within the work that a search may cost.
-SteadyState without_neighbours(const Case &input, const Control &control) {
+SteadyState without_neighbours(const Case &input, const Control &control, const MarchToRest &march) {
   double work = 0;
   Control limited = control;
   limited.spend = [&](double more) {
@@ -296,7 +264,7 @@ SteadyState without_neighbours(const Case &input, const Control &control) {
   };
   std::vector<std::string> tried;
   try {
-    return searched(input, limited, tried);
+    return searched(input, limited, march, tried);
   } catch (const Exhausted &) {
     throw NumericsFailure(failure_kind::unresolved,
                           fmt::format("no steady state found in the work that a search may cost ({})",
@@ -307,12 +275,12 @@ SteadyState without_neighbours(const Case &input, const Control &control) {
 
 // The state of a capsule alone, and then its neighbours: near enough to be felt at once, or coming closer if Newton's
 // method does not get there.
-SteadyState among_neighbours(const Case &input, const Control &control) {
+SteadyState among_neighbours(const Case &input, const Control &control, const MarchToRest &march) {
   constexpr double out_of_reach = 6;
   constexpr const char *period_key = "flow.period";
   Case alone = input;
   alone.flow.period = 0;
-  const SteadyState state = without_neighbours(alone, control);
+  const SteadyState state = without_neighbours(alone, control, march);
   const auto nodes = static_cast<int>(state.system->nodes());
   SteadyState train = moved_to_mesh(input, nodes, state);
   try {
@@ -329,8 +297,9 @@ SteadyState among_neighbours(const Case &input, const Control &control) {
 
 } // namespace
 
-SteadyState search_steady(const Case &input, const Control &control) {
-  return input.flow.period > 0 ? among_neighbours(input, control) : without_neighbours(input, control);
+SteadyState search_steady(const Case &input, const Control &control, const MarchToRest &march) {
+  return input.flow.period > 0 ? among_neighbours(input, control, march)
+                               : without_neighbours(input, control, march);
 }
 
 } // namespace capsule

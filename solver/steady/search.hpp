@@ -1,6 +1,6 @@
 #pragma once
 // A case's steady state from nothing. At first the undeformed capsule relaxes in the tube with a stiff membrane, which is
-// softened then (relaxation.hpp). If that fails, the capsule marches from the case's start (motion/march.hpp), or it relaxes in
+// softened then (relaxation.hpp). If that fails, the capsule marches from the case's start, or it relaxes in
 // a weaker flow, from which a branch (homotopy.hpp) leads to the case's own. Where it does not come to rest at all, branches
 // lead from a small stiff sphere in a weak flow to the case's capsule, one key after the other, the capillary number last. The
 // mesh gets finer on the way where it must.
@@ -9,6 +9,8 @@
 // A train begins with one capsule alone.
 #include "observe/outcome.hpp"
 #include "steady/mesh_change.hpp"
+#include <functional>
+#include <optional>
 
 namespace capsule {
 
@@ -16,10 +18,14 @@ namespace capsule {
 // most.
 constexpr double most_work_of_search = 1600;
 
+// The shape far in the tube at the end of a march (motion/to_rest.hpp); none where no march leads to the steady state.
+// Steady states do not know marches: who knows both may hand it in. An empty function: the search does without.
+using MarchToRest = std::function<std::optional<Profile>(const Case &, const Control &)>;
+
 // Throws NumericsFailure, of the kind "fold" when there is no steady state because the branch of growing capillary
 // numbers turns back and the membrane runs away behind the fold: the text says where. Any other turn says nothing
 // about the case, and is "unresolved"; "unbounded" where the capsule ran away in the last flow that was tried. Throws
 // Interrupted.
-SteadyState search_steady(const Case &input, const Control &control);
+SteadyState search_steady(const Case &input, const Control &control, const MarchToRest &march = {});
 
 } // namespace capsule

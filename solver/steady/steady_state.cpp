@@ -2,19 +2,20 @@
 #include "base/failure.hpp"
 #include "steady/from_profile.hpp"
 #include "steady/refinement.hpp"
-#include "steady/search.hpp"
 #include <fmt/format.h>
 
 namespace capsule {
 
-SteadyState find_steady(const Case &input, const std::optional<Profile> &from, const Control &control) {
-  return from ? from_profile(input, *from, control) : search_steady(input, control);
+SteadyState find_steady(const Case &input, const std::optional<Profile> &from, const Control &control,
+                        const MarchToRest &march) {
+  return from ? from_profile(input, *from, control) : search_steady(input, control, march);
 }
 
-Outcome steady(const Case &input, const std::optional<Profile> &from, const Control &control) {
+Outcome steady(const Case &input, const std::optional<Profile> &from, const Control &control,
+               const MarchToRest &march) {
   Outcome outcome;
   try {
-    const RefinedState refined = refine(input, find_steady(input, from, control), control);
+    const RefinedState refined = refine(input, find_steady(input, from, control, march), control);
     const SteadyRecord record = record_steady(refined.state, input.flow.viscosity_ratio);
     outcome.status = Status::steady;
     const bool stable = record.further.at("growth_rate") <= 0;

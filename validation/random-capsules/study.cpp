@@ -5,6 +5,7 @@
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
 #include "motion/motion.hpp"
+#include "motion/to_rest.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,7 @@ std::string march_columns(Case physics, const SeriesRow &steady_row) {
 
 std::string row_of(const Case &physics, int number) {
   const double before = cpu_seconds();
-  const Outcome found = steady(physics, {}, {});
+  const Outcome found = steady(physics, {}, {}, march_to_rest);
   const double seconds = cpu_seconds() - before;
   const bool is_skalak = physics.membrane.law.is(skalak);
   std::string row = fmt::format(

@@ -1,0 +1,38 @@
+#include "motion/to_rest.hpp"
+#include "base/failure.hpp"
+#include "case/case.hpp"
+#include "motion/march.hpp"
+#include "scene/resolution.hpp"
+
+namespace capsule {
+
+std::optional<Profile> march_to_rest(const Case &target, const Control &control) {
+  constexpr double way = 16, beyond = 8;
+  constexpr double step = 0.15; // of a march, in linearisations of a steady state
+  if (target.flow.type != FlowType::pore || target.flow.drive != DriveBy::flow_rate)
+    return {};
+  Case input = target;
+  input.accuracy = 1e-4; // a coarser mesh wrinkles
+  if (input.pore.shape == PoreShape::two_mouths)
+    input.pore.shape = PoreShape::hyperbolic;
+  input.flow.viscosity_ratio = 1;
+  input.flow.period = 0;
+  input.membrane.viscosity = {};
+  input.time = {};
+  input.output = {};
+  input.until = {};
+  input.until.x_g = input.capsule.start_x + way;
+  input.pore.exit_x = *input.until.x_g + beyond;
+  const double nodes = choose_resolution(input).membrane_nodes;
+  Control each_step;
+  each_step.interrupted = [&] {
+    spend(control, step, nodes);
+    return false;
+  };
+  const Outcome outcome = march_once(input, {}, each_step, Role::main);
+  if (outcome.status != Status::reached)
+    throw NumericsFailure(outcome.failure, outcome.message, "");
+  return outcome.last.profiles.back();
+}
+
+} // namespace capsule

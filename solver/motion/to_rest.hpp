@@ -1,0 +1,16 @@
+#pragma once
+// The shape to which a march leads from a case's own start, far in the tube: a beginning for Newton's method where nothing
+// else leads to the steady state.
+#include "observe/outcome.hpp"
+#include <optional>
+
+namespace capsule {
+
+struct Case;
+
+// The last profile of a march at accuracy 1e-4, with equal viscosities and a membrane without friction, on which no
+// steady shape depends. None for a flow that is not the pore's at a given rate. Asks `control` for the work of each step. Throws
+// NumericsFailure where the march does not arrive, InputError if the pore or the start cannot be built.
+std::optional<Profile> march_to_rest(const Case &target, const Control &control);
+
+} // namespace capsule
