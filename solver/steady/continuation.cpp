@@ -203,6 +203,24 @@ Vector Branch::bend_towards(const BranchPoint &end) const {
   return 2 / (length * length) * (chord - length * tangent_before_);
 }
 
+// That of the parameter at a point, up to a positive factor: with the Jacobian of the point itself, where that of a tangent is of
+// the last iterate but one.
+double Branch::slope_along_arc(const BranchPoint &point) const {
+  const Eigen::Index m = point.unknowns.size(), n = system_->nodes();
+  system_->set_parameters(path_.at(point.parameter));
+  system_->fit_tube(point.unknowns);
+  const SteadySystem::Linearisation linear = system_->linearise(point.unknowns);
+  Matrix bordered(m + 1, m + 1);
+  Vector row = Vector::Zero(m + 1);
+  row.head(2 * n) = weight_ / static_cast<double>(n) * tangent_before_.head(2 * n);
+  row[m] = tangent_before_[m];
+  bordered << linear.jacobian,
+      path_.slope(point.parameter) *
+          slopes(*system_, point.unknowns, linear, std::span(&path_.key(), 1)).col(0),
+      row.transpose();
+  return bordered.partialPivLu().solve(Vector(Vector::Unit(m + 1, m)))[m];
+}
+
 // The point where the parameter's slope along the arc vanishes. The slope is that of the tangents, or, if these do not
 // change sign because the mesh resolves a tip of the shape poorly, a difference of the parameter itself.
 BranchPoint Branch::fold() const {
@@ -215,29 +233,29 @@ BranchPoint Branch::fold() const {
   const auto at = [&](double step) {
     return correct(before_, tangent_before_, step, tolerance, step < 0 ? bend_before : bend_after);
   };
-  const auto by_tangents = [&](double step) { return at(step).tangent[tangent_.size() - 1]; };
+  const auto by_tangents = [&](double step) { return slope_along_arc(at(step).point); };
   const auto by_differences = [&](double step) {
     return at(step + h).point.parameter - at(step - h).point.parameter;
   };
-  const auto solve = [&](const auto &slope, double slope_first, double slope_last) {
-    if (!(slope_first * slope_last < 0)) // noise of a poorly resolved branch
+  const auto solve = [&](const auto &slope, double begin, double end, double slope_begin, double slope_end) {
+    if (!(slope_begin * slope_end < 0)) // noise of a poorly resolved branch
       no_convergence();
     std::uintmax_t evaluations = 30;
     const auto found =
-        boost::math::tools::toms748_solve(slope, first + h, last - h, slope_first, slope_last,
+        boost::math::tools::toms748_solve(slope, begin, end, slope_begin, slope_end,
                                           boost::math::tools::eps_tolerance<double>(30), evaluations);
     return at((found.first + found.second) / 2).point;
   };
-  double tangent_first = by_tangents(first + h);
-  const double tangent_last = by_tangents(last - h);
+  double tangent_first = by_tangents(first);
+  const double tangent_last = by_tangents(last);
   // The fold may lie before the first point of the branch.
   while (points_ == 2 && tangent_first * tangent_last > 0 && -first < 2 * last) {
     first *= 1.5;
-    tangent_first = by_tangents(first + h);
+    tangent_first = by_tangents(first);
   }
-  return tangent_first * tangent_last < 0
-             ? solve(by_tangents, tangent_first, tangent_last)
-             : solve(by_differences, by_differences(first + h), by_differences(last - h));
+  return tangent_first * tangent_last < 0 ? solve(by_tangents, first, last, tangent_first, tangent_last)
+                                          : solve(by_differences, first + h, last - h,
+                                                  by_differences(first + h), by_differences(last - h));
 }
 
 BranchPoint Branch::before_fold(const BranchPoint &fold, double parameter) const {

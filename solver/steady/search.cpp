@@ -266,10 +266,12 @@ SteadyState without_neighbours(const Case &input, const Control &control, const 
   try {
     return searched(input, limited, march, tried);
   } catch (const Exhausted &) {
-    throw NumericsFailure(failure_kind::unresolved,
-                          fmt::format("no steady state found in the work that a search may cost ({})",
-                                      tried.empty() ? "relaxing" : fmt::format("{}", fmt::join(tried, "; "))),
-                          "begin with a profile of a march (--from)");
+    throw NumericsFailure(
+        failure_kind::unresolved,
+        fmt::format("no steady state found in the work that a search may cost ({})",
+                    tried.empty() ? "relaxing" : fmt::format("{}", fmt::join(tried, "; "))),
+        "try a larger membrane.bending_ratio, whose shapes are smoother, or begin with a profile of a "
+        "march (--from)");
   }
 }
 

@@ -64,6 +64,20 @@ BOOST_AUTO_TEST_CASE(fold_of_a_neo_hookean_capsule) {
   BOOST_TEST(std::abs(found[0] - found[1]) < 1e-6 * found[0]);
 }
 
+// The rear of a capsule snaps through at one fold and back at the other; the least stable motion is at rest at both.
+BOOST_AUTO_TEST_CASE(folds_of_a_rear_that_snaps_through) {
+  Case physics = neo_hookean_case(88);
+  physics.capsule.radius = 0.9;
+  physics.membrane.bending_ratio = 1e-3;
+  physics.flow.capillary_number = 5e-3;
+  const Outcome outcome = follow_branch(physics, "flow.capillary_number", 0.015, {});
+  BOOST_TEST((outcome.status == Status::reached));
+  BOOST_REQUIRE(outcome.folds.size() == 2);
+  BOOST_TEST(outcome.folds[1].parameter < outcome.folds[0].parameter);
+  for (const BranchRow &fold : outcome.folds)
+    BOOST_TEST(std::abs(fold.growth_rate) < 1e-8);
+}
+
 // Skalak's law with C = 0 softens at the rim of a dent. Behind that every mesh has an end of its own.
 BOOST_AUTO_TEST_CASE(a_branch_ends_where_the_law_softens) {
   Case physics = neo_hookean_case(0);

@@ -1,6 +1,6 @@
 verdicts = "results/".case."/verdicts.csv"
 count(condition) = number(system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} ".condition." {n++} END {print n + 0}' ".verdicts))
-value(command) = number(system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} {print $k[\"seconds\"]}' ".verdicts." | sort -g | ".command))
+seconds(command) = number(system("awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) k[$i] = i; next} {print $k[\"seconds\"]}' ".verdicts." | sort -g | ".command))
 of(law, verdict) = "<awk -F, 'NR == 1 || ($2 == \"".law."\" && ".verdict.")' ".verdicts
 found = "$8 == \"steady\""
 ends = "($8 == \"fold\" || $8 == \"softening\")"
@@ -21,5 +21,5 @@ unset multiplot
 print sprintf("**Steady states of %d random capsules.** Found: %d; a fold ends the branch before: %d; the law softens before: %d; not found: %d.", \
     count("$8 != \"\""), count(found), count("$8 == \"fold\""), count("$8 == \"softening\""), count(unresolved)), \
   sprintf("The median search took %.2f s of one core, the longest %.0f s. Of %d marches that arrive, %d end within 10^{-3} of the steady state.", \
-    value("awk '{a[NR] = $1} END {print a[int((NR + 1)/2)]}'"), value("tail -1"), count("$14 == \"reached\""), \
+    seconds("awk '{a[NR] = $1} END {print a[int((NR + 1)/2)]}'"), seconds("tail -1"), count("$14 == \"reached\""), \
     count("$14 == \"reached\" && $15 < 1e-3 && $16 < 1e-3"))

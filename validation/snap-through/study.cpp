@@ -45,9 +45,20 @@ Case case_of(const Family &family) {
   physics.membrane.law = family.law;
   physics.membrane.bending_ratio = 1e-3;
   physics.flow.capillary_number = weak;
-  physics.accuracy = 1e-5;
+  physics.accuracy = 1e-6;
   return physics;
 }
+
+// Which fold is followed, along which key, and towards which value.
+struct Direction {
+  int fold;
+  const char *key;
+  double to;
+};
+// The second fold where the first one does not come back to it by way of a cusp.
+constexpr Direction directions[] = {{1, size_key, 1.2},     {1, size_key, 0.5},     {1, bending_key, 2e-3},
+                                    {1, bending_key, 2e-4}, {2, bending_key, 2e-4}, {1, shape_key, 0.6},
+                                    {1, shape_key, 1.5},    {2, shape_key, 1.5}};
 
 struct FoldOfBranch {
   SteadyState state;
@@ -55,40 +66,42 @@ struct FoldOfBranch {
   Vector null_vector;
 };
 
-// The first fold of the branch of growing flow. Throws NumericsFailure if there is none.
-FoldOfBranch first_fold(const Case &physics, const KeyPath &flow) {
+// A fold of the branch of growing flow, the first or the second one. Throws NumericsFailure if there is none.
+FoldOfBranch fold_of_branch(const Case &physics, const KeyPath &flow, int number) {
   constexpr int most_points = 200;
   const SteadyState state = refine(physics, find_steady(physics, {}, {}), {}).state;
   Branch branch(*state.system, flow, {state.unknowns, 0}, Branch::upwards(*state.system),
                 {.first = 0.02, .largest = 0.05, .tolerance = 1e-9});
+  int folds = 0;
   for (int k = 0; k < most_points && branch.point().parameter < 1; ++k) {
     branch.advance();
-    if (branch.turned()) {
+    if (branch.turned() && ++folds == number) {
       const BranchPoint fold = branch.fold();
-      return FoldOfBranch{{state.system, fold.unknowns},
-                          {fold.unknowns, fold.parameter, 0},
-                          branch.tangent_before().head(fold.unknowns.size())};
+      return {{state.system, fold.unknowns},
+              {fold.unknowns, fold.parameter, 0},
+              branch.tangent_before().head(fold.unknowns.size())};
     }
   }
   throw NumericsFailure("no fold", "the branch has no fold", "");
 }
 
 // A row per point of the fold that is followed along a second key, through the cusp and back if there is one.
-std::string fold_rows(const Family &family, const char *key, double to) {
+std::string fold_rows(const Family &family, const Direction &direction) {
+  const auto &[number, key, to] = direction;
   const Case physics = case_of(family);
   const KeyPath flow(flow_key, physics, strong), second(key, physics, to);
   std::string rows;
   const auto add = [&](const SteadyState &state, const FoldPoint &point) {
     const SteadyRecord record = record_steady(state, 1);
-    rows += fmt::format("{},{},{},{:.10g},{:.10g},{:.8g},{}\n", family.name, key, to,
+    rows += fmt::format("{},{},{},{},{:.10g},{:.10g},{:.8g},{}\n", family.name, number, key, to,
                         second.value(point.second_part), flow.value(point.part), record.row.pressure_drop,
                         record.row.dents);
   };
   try {
-    FoldOfBranch fold = first_fold(physics, flow);
+    FoldOfBranch fold = fold_of_branch(physics, flow, number);
     follow_fold(fold.state, fold.point, fold.null_vector, flow, second, finest, {}, add);
   } catch (const NumericsFailure &failure) {
-    rows += fmt::format("{},{},{},,,,{}\n", family.name, key, to, failure.kind);
+    rows += fmt::format("{},{},{},{},,,,{}\n", family.name, number, key, to, failure.kind);
   }
   return rows;
 }
@@ -172,7 +185,7 @@ private:
 };
 
 const std::string branch_header = "law,kind,capillary_number,v_g,pressure_drop,dents,growth_rate";
-const std::string fold_header = "law,key,towards,value,capillary_number,pressure_drop,dents";
+const std::string fold_header = "law,fold,key,towards,value,capillary_number,pressure_drop,dents";
 const std::string march_header =
     "flow,capillary_number,pressure_drop,steady_pressure_drop,dents,steady_dents,axial_residual,growth_rate";
 
@@ -216,18 +229,12 @@ bool ends_at_other_fold(const Rows &line, const Rows &branch, double &worst) {
 }
 
 bool study(const std::string &directory, unsigned jobs) {
-  struct Direction {
-    const char *key;
-    double to;
-  };
-  constexpr Direction directions[] = {{size_key, 1.2},     {size_key, 0.5},  {bending_key, 4e-3},
-                                      {bending_key, 2e-4}, {shape_key, 0.6}, {shape_key, 1.5}};
   std::vector<TextTask> tasks = {{"marches", march_rows}};
   for (const Family &family : families) {
     tasks.push_back({fmt::format("{}-branch", family.name), [&] { return branch_rows(family); }});
     for (const Direction &direction : directions)
-      tasks.push_back({fmt::format("{}-{}-{}", family.name, direction.key, direction.to),
-                       [&family, direction] { return fold_rows(family, direction.key, direction.to); }});
+      tasks.push_back({fmt::format("{}-{}-{}-{}", family.name, direction.fold, direction.key, direction.to),
+                       [&] { return fold_rows(family, direction); }});
   }
   const std::vector<std::string> texts = make_all(directory, jobs, tasks);
   const auto write = [&](const char *file, const std::string &header, const std::string &rows) {
@@ -247,7 +254,7 @@ bool study(const std::string &directory, unsigned jobs) {
       if (const auto cusp = line.size() > 2 ? cusp_of(line) : std::nullopt) {
         cusps += fmt::format("{},{},{:.6g},{:.6g}\n", families[f].name, directions[d].key, cusp->value,
                              cusp->capillary_number);
-        if (!line.text(line.size() - 1, "value").empty())
+        if (directions[d].fold == 1 && !line.text(line.size() - 1, "value").empty())
           same_folds &= ends_at_other_fold(line, branch, worst_folds);
       }
     }
