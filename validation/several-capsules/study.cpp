@@ -117,8 +117,8 @@ void add_pair(Errors &errors, const std::string &directory, const Estimated &row
   for (const char *quantity : {"min_gap#2", "pressure_share", "pressure_share#2", "spacing#2"}) {
     const std::string text = quantity, column = text.substr(0, text.find('#'));
     const std::string file = text.find('#') == std::string::npos ? "/series.csv" : "/series-2.csv";
-    const Columns here = read_columns(directory + "/" + run.name + file),
-                  there = read_columns(directory + "/" + run.name + "-refined" + file);
+    const Columns here = read_columns(fmt::format("{}/{}{}", directory, run.name, file)),
+                  there = read_columns(fmt::format("{}/{}-refined{}", directory, run.name, file));
     double difference = 0;
     std::size_t rows = 0;
     for (std::size_t i = 0, k = 0; i < here.at("time").size(); ++i) {
