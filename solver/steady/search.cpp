@@ -4,6 +4,7 @@
 #include "case/keys.hpp"
 #include "steady/fold_curve.hpp"
 #include "steady/from_profile.hpp"
+#include "steady/growth_rates.hpp"
 #include "steady/homotopy.hpp"
 #include "steady/newton.hpp"
 #include "steady/relaxation.hpp"
@@ -251,6 +252,25 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
                                                           : first->advice);
 }
 
+bool is_unstable(const SteadyState &state) {
+  constexpr double neutral = 1e-6;
+  const double viscosity_ratio = state.system->input().flow.viscosity_ratio;
+  return growth_rates(*state.system, state.unknowns, viscosity_ratio)[0].real() > neutral;
+}
+
+// The state that the motion reaches, where it is a stable one.
+std::optional<SteadyState> stable_state_by_march(const Case &input, const Control &control,
+                                                 const MarchToRest &march) {
+  try {
+    if (const auto end = march(input, control))
+      if (SteadyState state = from_profile(input, *end, control); !is_unstable(state))
+        return state;
+  } catch (const NumericsFailure &) { // the unstable state is what there is
+  } catch (const Exhausted &) {
+  }
+  return {};
+}
+
 // Within the work that a search may cost.
 SteadyState without_neighbours(const Case &input, const Control &control, const MarchToRest &march) {
   double work = 0;
@@ -264,7 +284,11 @@ SteadyState without_neighbours(const Case &input, const Control &control, const 
   };
   std::vector<std::string> tried;
   try {
-    return searched(input, limited, march, tried);
+    SteadyState state = searched(input, limited, march, tried);
+    if (march && is_unstable(state))
+      if (auto other = stable_state_by_march(input, limited, march))
+        return *other;
+    return state;
   } catch (const Exhausted &) {
     throw NumericsFailure(
         failure_kind::unresolved,

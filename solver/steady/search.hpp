@@ -1,9 +1,9 @@
 #pragma once
 // A case's steady state from nothing. At first the undeformed capsule relaxes in the tube with a stiff membrane, which is
-// softened then (relaxation.hpp). If that fails, the capsule marches from the case's start, or it relaxes in
-// a weaker flow, from which a branch (homotopy.hpp) leads to the case's own. Where it does not come to rest at all, branches
-// lead from a small stiff sphere in a weak flow to the case's capsule, one key after the other, the capillary number last. The
-// mesh gets finer on the way where it must.
+// softened then (relaxation.hpp). If that fails, or leads to an unstable state, the capsule marches from the case's start.
+// Or it relaxes in a weaker flow, from which a branch (homotopy.hpp) leads to the case's own. Where it does not come to rest
+// at all, branches lead from a small stiff sphere in a weak flow to the case's capsule, one key after the other, the capillary
+// number last. The mesh gets finer on the way where it must.
 // A flow in which the stiff membrane runs away may be too strong: then the fold of a stiffer membrane, which few
 // nodes show, is followed to the case's (fold_curve.hpp) before anything else is tried.
 // A train begins with one capsule alone.
