@@ -28,7 +28,7 @@ Vector continued_solution(const Recycled &recycled, const Vector &position) {
   const auto count = static_cast<Eigen::Index>(recycled.positions.size()) - 1;
   if (count == 0)
     return recycled.solutions[0];
-  Matrix steps(position.size(), count), changes(position.size(), count);
+  Matrix steps(position.size(), count), changes(recycled.solutions[0].size(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto earlier = static_cast<std::size_t>(k + 1);
     steps.col(k) = recycled.positions[earlier] - recycled.positions[0];

@@ -164,6 +164,7 @@ BOOST_AUTO_TEST_CASE(results_in_physical_units) {
   physics.physical.shear_modulus = {2e-5};
   physics.physical.resistivity = {0.65};
   Checkpoint last = random_checkpoint();
+  physics.followers.assign(last.followers.size(), physics);
   SeriesRow &end = last.series.back();
   end.time = 2;
   end.x_g = 3;
