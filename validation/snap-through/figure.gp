@@ -26,10 +26,10 @@ set ylabel "ε"
 set xlabel "{/:Italic R}_{eq} / {/:Italic R}_t"; set xrange [0.48:1]
 eval lines("capsule.radius")
 unset key
-set xlabel "δ"; set logscale x; set xrange [1.5e-4:3e-3]; set format x "10^{%T}"; set yrange [0.002:0.02]; set ytics (0.002, 0.005, 0.01, 0.02)
+set xlabel "δ"; set logscale x; set xrange [1.5e-4:3e-3]; set xtics (2e-4, 5e-4, 1e-3, 2e-3); set yrange [0.002:0.02]; set ytics (0.002, 0.005, 0.01, 0.02)
 eval lines("membrane.bending_ratio")
 set yrange [0.004:0.05]; set ytics (0.005, 0.01, 0.02, 0.05)
-set xlabel "{/:Italic A}/{/:Italic B}"; unset logscale x; set format x "%g"; set xrange [0.8:1.55]
+set xlabel "{/:Italic A}/{/:Italic B}"; unset logscale x; set xtics auto; set xrange [0.8:1.55]
 eval lines("capsule.aspect_ratio")
 unset multiplot
 cell_of(name, condition, column) = system("awk -F, 'NR > 1 && ".condition." {print $".column."; exit}' ".file(name))

@@ -55,10 +55,11 @@ struct Direction {
   const char *key;
   double to;
 };
-// The second fold where the first one does not come back to it by way of a cusp.
-constexpr Direction directions[] = {{1, size_key, 1.2},     {1, size_key, 0.5},     {1, bending_key, 2e-3},
-                                    {1, bending_key, 2e-4}, {2, bending_key, 2e-4}, {1, shape_key, 0.6},
-                                    {1, shape_key, 1.5},    {2, shape_key, 1.5}};
+// The second fold where the first one does not come back to it by way of a cusp. Two ends for the size: the first steps of
+// some lines succeed with one of them only.
+constexpr Direction directions[] = {{1, size_key, 1.2},     {1, size_key, 0.6},     {1, size_key, 0.5},
+                                    {1, bending_key, 2e-3}, {1, bending_key, 2e-4}, {2, bending_key, 2e-4},
+                                    {1, shape_key, 0.6},    {1, shape_key, 1.5},    {2, shape_key, 1.5}};
 
 struct FoldOfBranch {
   SteadyState state;
