@@ -126,7 +126,7 @@ struct Builder {
     if (auto complaint = set_value(key, value.value, run.physics))
       chosen.complain({value.from}, complaint->message, complaint->hint);
     constexpr double rounding = 5e-4; // to four digits
-    if (chosen.given(value.key) && std::abs(*stated / value.value - 1) > rounding)
+    if (stated && chosen.given(value.key) && std::abs(*stated / value.value - 1) > rounding)
       chosen.complain({value.key},
                       fmt::format("{} = {}, but {} makes it {}", value.key, number_text(*stated), value.from,
                                   number_text(value.value)),

@@ -56,7 +56,7 @@ private:
   }
 
   static std::string percent_text(double percent) {
-    return std::abs(percent) < 100 ? fmt::format("{:+.2g} %", percent) : fmt::format("{:+.0f} %", percent);
+    return std::abs(percent) < 99.5 ? fmt::format("{:+.2g} %", percent) : fmt::format("{:+.0f} %", percent);
   }
 
   static void decide(Comparison &comparison, bool agrees) {

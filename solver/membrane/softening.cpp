@@ -1,5 +1,6 @@
 #include "membrane/softening.hpp"
 #include "membrane/surface_viscosity.hpp"
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
@@ -13,6 +14,8 @@ SoftestPoint softest_point(const Membrane &membrane, const Vector &position) {
     const double stiffness = strain_energy(membrane.law, a, b).w_aa;
     if (!(stiffness >= softest.stiffness))
       softest = {stiffness, a, b};
+    if (std::isnan(stiffness))
+      break;
   }
   return softest;
 }

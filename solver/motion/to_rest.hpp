@@ -10,7 +10,7 @@ struct Case;
 
 // The last profile of a march at accuracy 1e-4, with equal viscosities and a membrane without friction, on which no
 // steady shape depends. None for a flow that is not the pore's at a given rate. Asks `control` for the work of each step. Throws
-// NumericsFailure where the march does not arrive, InputError if the pore or the start cannot be built.
+// NumericsFailure where the march does not arrive, or cannot begin.
 std::optional<Profile> march_to_rest(const Case &target, const Control &control);
 
 } // namespace capsule

@@ -102,9 +102,9 @@ std::vector<std::string> remarks_on(const CaseInput &input) {
     remarks.push_back(
         fmt::format("in the tube capsules move as if alone, to this accuracy, beyond a gap of about {:.1f}",
                     gap_without_interaction(accuracy)));
-  remarks.push_back(
-      fmt::format("`steady` searches for {} of one core at most, most often for less than a second",
-                  duration_text(seconds_of_search(most_work_of_search))));
+  if (std::ranges::any_of(input.runs, [](const RunInput &run) { return run.physics.followers.empty(); }))
+    remarks.push_back(fmt::format("`steady` searches for about {} of one core at most",
+                                  duration_text(seconds_of_search(most_work_of_search))));
   return remarks;
 }
 

@@ -84,12 +84,12 @@ public:
   // To the next point; true at the end.
   bool advance() {
     branch_->advance();
-    branch_->require_stiffness();
     if (branch_->turned() && !branch_->tangent_has_turned() &&
         refine_mesh(branch_->point_before(), branch_->tangent_before(), branch_->trend_before()))
       return false;
     if (branch_->turned())
       outcome().folds.push_back(record(branch_->fold(), true));
+    branch_->require_stiffness(1);
     part_ = branch_->point().parameter;
     if (part_ >= 1 || part_ <= 0) {
       outcome().branch.push_back(record(branch_->at_parameter(part_ >= 1 ? 1 : 0), true));

@@ -168,17 +168,18 @@ double Branch::plain_step() const {
                             tangent_[tangent_.size() - 1]);
 }
 
-void Branch::require_stiffness() const {
+void Branch::require_stiffness(double end) const {
   const SoftestPoint softest = system_->softest(point_.unknowns);
   if (!softens(softest))
     return;
   const double stiffness_before = std::max(0.0, system_->softest(before_.unknowns).stiffness);
-  const double part = stiffness_before / (stiffness_before - softest.stiffness);
-  throw NumericsFailure(
-      failure_kind::softening,
-      fmt::format("{} (from {} on)", softening_text(softest),
-                  path_.text(before_.parameter + part * (point_.parameter - before_.parameter))),
-      softening_advice);
+  const double fall = stiffness_before - softest.stiffness;
+  const double part = fall > 0 ? stiffness_before / fall : 0;
+  const double onset = before_.parameter + part * (point_.parameter - before_.parameter);
+  if (onset < end)
+    throw NumericsFailure(failure_kind::softening,
+                          fmt::format("{} (from {} on)", softening_text(softest), path_.text(onset)),
+                          softening_advice);
 }
 
 bool Branch::turned() const {
@@ -203,8 +204,8 @@ Vector Branch::bend_towards(const BranchPoint &end) const {
   return 2 / (length * length) * (chord - length * tangent_before_);
 }
 
-// That of the parameter at a point, up to a positive factor: with the Jacobian of the point itself, where that of a tangent is of
-// the last iterate but one.
+// The parameter's slope along the arc at a point, up to a positive factor, with the Jacobian of the point itself. That of a
+// tangent (`correct`) is of the last iterate but one, which is not exact enough for a fold.
 double Branch::slope_along_arc(const BranchPoint &point) const {
   const Eigen::Index m = point.unknowns.size(), n = system_->nodes();
   system_->set_parameters(path_.at(point.parameter));

@@ -51,9 +51,9 @@ public:
   bool wants_a_finer_mesh() const { return poorly_resolved(*system_, point_.unknowns); }
   // The steady state between the last two points at a parameter between theirs.
   BranchPoint at_parameter(double parameter) const;
-  // Throws NumericsFailure, which says at which parameter, if the membrane has softened in the last step: behind that point
-  // states depend on the mesh.
-  void require_stiffness() const;
+  // Throws NumericsFailure if the membrane has softened in the last step, before the parameter came to `end`. It says from
+  // which parameter on: behind it states depend on the mesh.
+  void require_stiffness(double end) const;
   // Whether the parameter has turned back in the last step or shortly before it.
   bool turned() const;
   // Whether the tangent has turned, too; if not, the mesh resolves some part of the shape too poorly to tell.

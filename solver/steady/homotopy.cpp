@@ -6,7 +6,7 @@
 namespace capsule {
 namespace {
 
-// On fewer nodes a law softens later than on many.
+// On so many the place where a law softens is right to a few per cent.
 constexpr int nodes_that_show_softening = 100;
 
 // On the finest mesh a stretch above this that has grown since the fold counts as running away, too.
@@ -66,7 +66,6 @@ bool Homotopy::follow(const KeyPath &path) {
     place_.first_step = branch.plain_step();
     try {
       branch.advance();
-      branch.require_stiffness();
     } catch (const NumericsFailure &failure) {
       if (!place_.turned_at.empty() && !can_refine())
         break; // behind the fold, as far as this mesh goes
@@ -91,6 +90,10 @@ bool Homotopy::follow(const KeyPath &path) {
       place_.turned_at = path.text(place_.farthest);
       place_.stretch_at_fold = state_.system->largest_stretch(fold.unknowns);
     }
+    if (place_.turned_at.empty())
+      branch.require_stiffness(1);
+    else if (softens(state_.system->softest(now.unknowns)))
+      break;                             // behind the fold, as far as the law goes
     if (now.parameter > place_.farthest) // it has come back
       place_.turned_at.clear();
     if (now.parameter < first_part ||

@@ -18,7 +18,7 @@ public:
       : target_(target), now_(now), control_(control), state_(std::move(begin)) {}
 
   // Takes one key to a value. Throws NumericsFailure: "fold" where the branch turns for good and the membrane runs away behind
-  // it, "softening" where its law does; other kinds say nothing about the case. Throws what it asks of `control`.
+  // it, "softening" where the membrane's law softens; other kinds say nothing about the case. Throws what it asks of `control`.
   void vary(const std::string &key, double to);
 
   const SteadyState &state() const { return state_; }

@@ -7,7 +7,7 @@
 namespace capsule {
 
 // Unknowns near to a steady state of the system, to which the shape relaxes. Throws NumericsFailure: "unresolved" where
-// the shape does not come to rest, "unbounded" where it stretches without end, Interrupted.
+// the shape does not come to rest, "unbounded" where it stretches without end, "softening" where its law does on the way; Interrupted.
 Vector relaxed(SteadySystem &system, Vector shape, const Control &control);
 
 } // namespace capsule

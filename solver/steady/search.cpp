@@ -125,7 +125,16 @@ bool ends_branch(const NumericsFailure &failure) {
 
 // What such an end on the way of growing flow says of the case.
 NumericsFailure no_steady_state(const NumericsFailure &end) {
-  return {end.kind, fmt::format("no steady state: {}", end.what()), end.advice};
+  const char *none =
+      end.kind == failure_kind::softening ? "no steady state that a mesh resolves" : "no steady state";
+  return {end.kind, fmt::format("{}: {}", none, end.what()), end.advice};
+}
+
+// The same of one on another way, which says nothing of the case.
+NumericsFailure of_this_way(const NumericsFailure &end) {
+  return ends_branch(end)
+             ? NumericsFailure(failure_kind::unresolved, end.what(), "try a larger membrane.bending_ratio")
+             : end;
 }
 
 // The fold that a growing flow meets before the case's own, if it does: that of a stiff membrane, which few nodes show,
@@ -193,7 +202,8 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
   std::optional<NumericsFailure> last;
   bool has_run_away = false;
   constexpr double weakest_part = 0.125;
-  // Parts of the flow, in which the capsule may come to rest. Just below where a law softens coarse meshes mislead.
+  // Parts of the flow, in which the capsule may come to rest. Where its law softens before, a branch from a much weaker flow
+  // tells where: coarse meshes have states beyond that place, from which no finer mesh goes on.
   for (double part = 1; part >= weakest_part;
        part = last->kind == failure_kind::softening && part > weakest_part ? weakest_part : part / 2) {
     Case weaker = input;
@@ -227,7 +237,7 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
       }
   }
   if (input.capsule.shape != CapsuleShape::spheroid) // a small stiff sphere does not become one
-    throw NumericsFailure(last.value());
+    throw of_this_way(*last);
   std::optional<NumericsFailure> first;
   const double weakest = input.flow.type == FlowType::extension ? 0 : 0.03; // only a tube squeezes
   for (const double strength : {std::clamp(flow, weakest, 0.06), 0.02, 0.12}) {
@@ -246,10 +256,10 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
           fmt::format("from a small stiff sphere at {} = {:.3g}: {}", flow_key, strength, failure.what()));
     }
   }
-  throw NumericsFailure(first->kind == failure_kind::fold ? failure_kind::unresolved : first->kind,
-                        fmt::format("no way found from a small stiff sphere: {}", first->what()),
-                        first->kind == failure_kind::fold ? "try a larger membrane.bending_ratio"
-                                                          : first->advice);
+  const NumericsFailure last_word = of_this_way(*first);
+  throw NumericsFailure(last_word.kind,
+                        fmt::format("no way found from a small stiff sphere: {}", last_word.what()),
+                        last_word.advice);
 }
 
 bool is_unstable(const SteadyState &state) {
@@ -290,12 +300,12 @@ SteadyState without_neighbours(const Case &input, const Control &control, const 
         return *other;
     return state;
   } catch (const Exhausted &) {
-    throw NumericsFailure(
-        failure_kind::unresolved,
-        fmt::format("no steady state found in the work that a search may cost ({})",
-                    tried.empty() ? "relaxing" : fmt::format("{}", fmt::join(tried, "; "))),
-        "try a larger membrane.bending_ratio, whose shapes are smoother, or begin with a profile of a "
-        "march (--from)");
+    throw NumericsFailure(failure_kind::unresolved,
+                          fmt::format("no steady state found in the work that a search may cost ({})",
+                                      tried.empty() ? "relaxing" : fmt::format("{}", fmt::join(tried, "; "))),
+                          "try a weaker flow, or a larger membrane.bending_ratio, whose shapes are smoother, "
+                          "or begin with a profile of a "
+                          "march (--from)");
   }
 }
 

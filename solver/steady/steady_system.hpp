@@ -40,7 +40,7 @@ public:
   const Resolution &resolution() const { return resolution_; }
   double largest_stretch(const Vector &unknowns) const; // meridional, at the nodes
   SoftestPoint softest(const Vector &unknowns) const;
-  // Throws NumericsFailure if the membrane's law softens: on finer meshes it does so more.
+  // Throws NumericsFailure if the membrane's law softens.
   void require_stiffness(const Vector &unknowns) const;
   const std::optional<Pore> &pore() const { return pore_; } // the tube that stands for it
 
