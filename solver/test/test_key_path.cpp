@@ -4,6 +4,7 @@
 #include "law/skalak.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <numbers>
 
 using namespace capsule;
 
@@ -55,6 +56,9 @@ BOOST_AUTO_TEST_CASE(from_one_value_to_another) {
   Case physical = input;
   physical.flow.capillary_number = 0.05;
   physical.physical.flow_rate = {1e-11, "10 nl/s"};
+  physical.physical.tube_radius = {1e-5};
+  physical.physical.viscosity = {1e-3};
+  physical.physical.shear_modulus = {1e-11 * 1e-3 / (0.05 * std::numbers::pi * 1e-10)};
   BOOST_TEST(KeyPath(flow_key, physical, 0.1).text(1) == "flow.capillary_number = 0.1 (20 nl/s)");
 }
 
