@@ -1,8 +1,8 @@
 #pragma once
 // Where a law softens: a membrane resists short meridional waves with d^2 w/d lambda_s^2 alone, as a small displacement
-// along the normal relieves the bending that they would cause. Where that is not positive, the equations are no longer elliptic: such waves grow the
-// faster the shorter they are, and a shape depends on its mesh. Skalak's law softens in compression, where C = 0 below
-// lambda_s = 1/sqrt(3). Throws nothing.
+// along the normal relieves the bending that they would cause. Where that is not positive, the equations are no longer
+// elliptic: such waves grow the faster the shorter they are, and a shape depends on its mesh. Skalak's law softens in
+// compression, where C = 0 below lambda_s = 1/sqrt(3). Throws nothing.
 #include "membrane/membrane.hpp"
 #include <optional>
 #include <string>

@@ -66,15 +66,27 @@ void Branch::balance() {
   step_ = std::min(step_ * stretched, steps_.largest); // to the same point as before, if allowed
 }
 
+// Its product with a change is that change's length along a tangent.
+Vector Branch::row_across(const Vector &tangent) const {
+  const Eigen::Index n = system_->nodes(), m = tangent.size() - 1;
+  Vector row = Vector::Zero(m + 1);
+  row.head(2 * n) = weight_ / static_cast<double>(n) * tangent.head(2 * n);
+  row[m] = tangent[m];
+  return row;
+}
+
+// Derivative of the equations with respect to the parameter.
+Vector Branch::slope_in_parameter(const BranchPoint &at, const SteadySystem::Linearisation &linear) const {
+  return path_.slope(at.parameter) * slopes(*system_, at.unknowns, linear, std::span(&path_.key(), 1)).col(0);
+}
+
 // The point at a length `step` along the tangent, from a guess that bends away from it.
 Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
                                   double tolerance, const Vector &curvature) const {
   constexpr double small_correction = 1e-3; // after it the parameter's column is not computed again
   const Eigen::Index m = from.unknowns.size();
   const Eigen::Index n = system_->nodes();
-  Vector row = Vector::Zero(m + 1);
-  row.head(2 * n) = weight_ / static_cast<double>(n) * tangent.head(2 * n);
-  row[m] = tangent[m];
+  const Vector row = row_across(tangent);
   const Vector advance = step * tangent + step * step / 2 * curvature;
   BranchPoint now{from.unknowns + advance.head(m), from.parameter + advance[m]};
   Vector slope;
@@ -85,8 +97,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     system_->fit_tube(now.unknowns);
     const SteadySystem::Linearisation linear = system_->linearise(now.unknowns);
     if (before > small_correction)
-      slope = path_.slope(now.parameter) *
-              slopes(*system_, now.unknowns, linear, std::span(&path_.key(), 1)).col(0);
+      slope = slope_in_parameter(now, linear);
     Matrix bordered(m + 1, m + 1);
     bordered << linear.jacobian, slope, row.transpose();
     Vector right = Vector::Zero(m + 1);
@@ -207,18 +218,12 @@ Vector Branch::bend_towards(const BranchPoint &end) const {
 // The parameter's slope along the arc at a point, up to a positive factor, with the Jacobian of the point itself. That of a
 // tangent (`correct`) is of the last iterate but one, which is not exact enough for a fold.
 double Branch::slope_along_arc(const BranchPoint &point) const {
-  const Eigen::Index m = point.unknowns.size(), n = system_->nodes();
+  const Eigen::Index m = point.unknowns.size();
   system_->set_parameters(path_.at(point.parameter));
   system_->fit_tube(point.unknowns);
   const SteadySystem::Linearisation linear = system_->linearise(point.unknowns);
   Matrix bordered(m + 1, m + 1);
-  Vector row = Vector::Zero(m + 1);
-  row.head(2 * n) = weight_ / static_cast<double>(n) * tangent_before_.head(2 * n);
-  row[m] = tangent_before_[m];
-  bordered << linear.jacobian,
-      path_.slope(point.parameter) *
-          slopes(*system_, point.unknowns, linear, std::span(&path_.key(), 1)).col(0),
-      row.transpose();
+  bordered << linear.jacobian, slope_in_parameter(point, linear), row_across(tangent_before_).transpose();
   return bordered.partialPivLu().solve(Vector(Vector::Unit(m + 1, m)))[m];
 }
 

@@ -76,6 +76,8 @@ private:
   Vector curvature() const;
   double weighted(const Vector &a, const Vector &b) const;
   double along_tangent_before(const BranchPoint &at) const;
+  Vector row_across(const Vector &tangent) const;
+  Vector slope_in_parameter(const BranchPoint &at, const SteadySystem::Linearisation &linear) const;
   double slope_along_arc(const BranchPoint &point) const;
   Vector bend_towards(const BranchPoint &end) const;
   void balance();

@@ -19,7 +19,8 @@ namespace capsule {
 constexpr double most_work_of_search = 1600;
 
 // The shape far in the tube at the end of a march (motion/to_rest.hpp); none where no march leads to the steady state.
-// Throws NumericsFailure where the march ends before. Steady states do not know marches: who knows both may hand it in. An empty function: the search does without.
+// Throws NumericsFailure where the march ends before. Steady states do not know marches: who knows both may hand it in. An
+// empty function: the search does without.
 using MarchToRest = std::function<std::optional<Profile>(const Case &, const Control &)>;
 
 // Throws NumericsFailure, of the kind "fold" when there is no steady state because the branch of growing capillary
