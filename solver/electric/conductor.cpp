@@ -223,7 +223,7 @@ double Conductor::change(const MembraneMesh &mesh, const Vector &position) const
   const MembraneShape shape = shape_at(mesh, position);
   const RowMatrix from_wall = response(shape.targets);
   RowMatrix to_nodes;
-  assemble_layer(ring_dipole, shape.targets, shape.panels, &mesh.self, mesh.near, to_nodes);
+  assemble_layer(ring_dipole, shape.targets, shape.panels, &mesh.parts[0].self, mesh.near, to_nodes);
   const RowMatrix to_wall = in_equations(shape.panels, mesh.near);
   const Matrix interpolation = at_panels(mesh);
 

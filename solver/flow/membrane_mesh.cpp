@@ -20,6 +20,16 @@ Curve blank_curve(Eigen::Index size, Eigen::Index panel_points) {
   return curve;
 }
 
+// So many points of a curve from one on.
+Curve part_of(const Curve &curve, Eigen::Index first, Eigen::Index count) {
+  Curve part = curve;
+  for (Vector *field : {&part.x, &part.r, &part.x_zeta, &part.r_zeta, &part.weights, &part.arc,
+                        &part.normal_x, &part.normal_r, &part.area})
+    *field = Vector(field->segment(first, count));
+  part.panel_points = std::min(curve.panel_points, count);
+  return part;
+}
+
 } // namespace
 
 Vector even_membrane_edges(const MeridianBasis &basis, double largest_panel) {
@@ -65,14 +75,17 @@ MembraneMesh make_membrane_mesh(const MeridianBasis &basis, const FlowResolution
   mesh.nodes = basis.size();
   mesh.points = panels.points.size();
   mesh.panel_points = resolution.membrane_panel_points;
-  mesh.self = make_self_rule(panels, basis.nodes);
+  SelfRule self = make_self_rule(panels, basis.nodes);
   mesh.near_tolerance = resolution.near_tolerance;
   mesh.near = NearRule(mesh.panel_points, mesh.near_tolerance);
+  Matrix even_bend = bend(self, [&](const Vector &zeta) { return basis.even(zeta, 2); });
+  Matrix odd_bend = bend(self, [&](const Vector &zeta) { return basis.odd(zeta, 2); });
   mesh.parts.push_back({.basis = basis,
                         .at_nodes = sample(basis, basis.nodes, basis.weights),
                         .at_panels = sample(basis, panels.points, panels.weights),
-                        .even_bend = bend(mesh.self, [&](const Vector &zeta) { return basis.even(zeta, 2); }),
-                        .odd_bend = bend(mesh.self, [&](const Vector &zeta) { return basis.odd(zeta, 2); })});
+                        .self = std::move(self),
+                        .even_bend = std::move(even_bend),
+                        .odd_bend = std::move(odd_bend)});
   return mesh;
 }
 
@@ -85,10 +98,6 @@ MembraneMesh join(std::span<const MembraneMesh> meshes) {
       part.first_node += joined.nodes;
       part.first_point += joined.points;
       joined.parts.push_back(std::move(part));
-    }
-    for (SelfRule::Site site : mesh.self.sites) {
-      site.first_point += joined.points;
-      joined.self.sites.push_back(std::move(site));
     }
     joined.nodes += mesh.nodes;
     joined.points += mesh.points;
@@ -107,26 +116,26 @@ std::vector<Eigen::Index> MembraneMesh::rows(std::size_t part) const {
   return rows_of_part(parts[part].first_node, parts[part].nodes(), nodes);
 }
 
-Vector MembraneMesh::at_panels(const Vector &nodal) const {
-  Vector values(2 * points);
-  for (const Part &p : parts) {
-    values.segment(p.first_point, p.points()).noalias() =
-        p.at_panels.even[0] * nodal.segment(p.first_node, p.nodes());
-    values.segment(points + p.first_point, p.points()).noalias() =
-        p.at_panels.odd[0] * nodal.segment(nodes + p.first_node, p.nodes());
-  }
+Vector MembraneMesh::Part::values_at_panels(const Vector &nodal) const {
+  Vector values(2 * points());
+  values.head(points()).noalias() = at_panels.even[0] * nodal.head(nodes());
+  values.tail(points()).noalias() = at_panels.odd[0] * nodal.tail(nodes());
   return values;
 }
 
-Matrix MembraneMesh::on_nodes(const RowMatrix &on_panels) const {
-  Matrix result(on_panels.rows(), 2 * nodes);
-  for (const Part &p : parts) {
-    result.middleCols(p.first_node, p.nodes()).noalias() =
-        on_panels.middleCols(p.first_point, p.points()) * p.at_panels.even[0];
-    result.middleCols(nodes + p.first_node, p.nodes()).noalias() =
-        on_panels.middleCols(points + p.first_point, p.points()) * p.at_panels.odd[0];
-  }
+Matrix MembraneMesh::Part::on_nodes(const RowMatrix &on_panels) const {
+  Matrix result(on_panels.rows(), 2 * nodes());
+  result.leftCols(nodes()).noalias() = on_panels.leftCols(points()) * at_panels.even[0];
+  result.rightCols(nodes()).noalias() = on_panels.rightCols(points()) * at_panels.odd[0];
   return result;
+}
+
+Vector MembraneMesh::at_panels(const Vector &nodal) const {
+  Vector values(2 * points);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    values(rows_of_part(parts[k].first_point, parts[k].points(), points)) =
+        parts[k].values_at_panels(nodal(rows(k)));
+  return values;
 }
 
 MembraneShape shape_at(const MembraneMesh &mesh, const Vector &position) {
@@ -155,6 +164,38 @@ MembraneShape shape_at(const MembraneMesh &mesh, const Vector &position) {
   complete(nodes);
   complete(panels);
   return shape;
+}
+
+Targets targets_of(const MembraneMesh &mesh, const MembraneShape &shape, std::size_t membrane) {
+  const MembraneMesh::Part &part = mesh.parts[membrane];
+  const auto of_part = [&](const Vector &field) { return field.segment(part.first_node, part.nodes()); };
+  return {of_part(shape.targets.x), of_part(shape.targets.r), of_part(shape.targets.bend_x),
+          of_part(shape.targets.bend_r)};
+}
+
+Curve nodes_of(const MembraneMesh &mesh, const MembraneShape &shape, std::size_t membrane) {
+  const MembraneMesh::Part &part = mesh.parts[membrane];
+  return part_of(shape.nodes, part.first_node, part.nodes());
+}
+
+Curve panels_of(const MembraneMesh &mesh, const MembraneShape &shape, std::size_t membrane) {
+  const MembraneMesh::Part &part = mesh.parts[membrane];
+  return part_of(shape.panels, part.first_point, part.points());
+}
+
+NodesNearby::NodesNearby(const MembraneMesh &mesh, const MembraneShape &shape, std::size_t membrane) {
+  const Curve nodes = nodes_of(mesh, shape, membrane);
+  const double spacings = 1.1 * -std::log(mesh.near_tolerance) / (2 * pi);
+  const Eigen::ArrayXd reach = spacings * pi / static_cast<double>(nodes.size()) * nodes.arc.array();
+  x_ = nodes.x;
+  r_ = nodes.r;
+  reach_squared_ = reach.square();
+  low_ = x_.minCoeff() - reach.maxCoeff();
+  high_ = x_.maxCoeff() + reach.maxCoeff();
+}
+
+bool NodesNearby::hold(double x, double r) const {
+  return x > low_ && x < high_ && ((x_ - x).square() + (r_ - r).square() < reach_squared_).any();
 }
 
 } // namespace capsule

@@ -26,15 +26,19 @@ struct MembraneMesh {
   struct Part { // one membrane
     MeridianBasis basis;
     Sampling at_nodes, at_panels;
+    SelfRule self;              // of its nodes on its panels
     Matrix even_bend, odd_bend; // nodes -> bend of layer_potential.hpp
     Eigen::Index first_node = 0, first_point = 0;
     Eigen::Index nodes() const { return basis.size(); }
     Eigen::Index points() const { return at_panels.zeta.size(); }
+    // Nodal values of this membrane alone, 2n -> values at its quadrature points, 2q; a matrix on those as one on nodal
+    // values.
+    Vector values_at_panels(const Vector &nodal) const;
+    Matrix on_nodes(const RowMatrix &on_panels) const;
   };
   std::vector<Part> parts;
   Eigen::Index nodes = 0, points = 0; // N, Q of all parts
   Eigen::Index panel_points = 0;
-  SelfRule self; // of all nodes on all panels
   double near_tolerance = 0;
   NearRule near;
 
@@ -42,8 +46,6 @@ struct MembraneMesh {
   std::vector<Eigen::Index> rows(std::size_t part) const;
   // Nodal values -> values at the quadrature points, both components.
   Vector at_panels(const Vector &nodal) const;
-  // The matrix on panel vectors as one on nodal vectors.
-  Matrix on_nodes(const RowMatrix &on_panels) const;
 };
 MembraneMesh make_membrane_mesh(const MeridianBasis &basis, const FlowResolution &resolution);
 MembraneMesh join(std::span<const MembraneMesh> meshes);
@@ -56,5 +58,21 @@ struct MembraneShape {
   Curve panels;
 };
 MembraneShape shape_at(const MembraneMesh &mesh, const Vector &position);
+// What belongs to one of them.
+Targets targets_of(const MembraneMesh &mesh, const MembraneShape &shape, std::size_t membrane);
+Curve nodes_of(const MembraneMesh &mesh, const MembraneShape &shape, std::size_t membrane);
+Curve panels_of(const MembraneMesh &mesh, const MembraneShape &shape, std::size_t membrane);
+
+// Where the rule on a membrane's nodes is too coarse for a target: it converges like exp(-2 pi d/h), h the distance of the
+// nodes and d theirs to the target.
+class NodesNearby {
+public:
+  NodesNearby(const MembraneMesh &mesh, const MembraneShape &shape, std::size_t membrane);
+  bool hold(double x, double r) const;
+
+private:
+  Eigen::ArrayXd x_, r_, reach_squared_;
+  double low_, high_;
+};
 
 } // namespace capsule

@@ -83,10 +83,13 @@ BOOST_AUTO_TEST_CASE(joined_membranes_keep_their_values) {
   for (const Curve *curve : {&shape.nodes, &shape.panels})
     BOOST_TEST(std::abs(2 * curve->area.sum() - 4 * (0.25 + 0.64)) < 1e-11);
   // As a matrix on panel vectors the mean of x^2 over the areas, as one on nodal vectors the same of the nodes' x.
-  RowMatrix moment(1, 2 * joined.points);
-  moment << shape.panels.area.cwiseProduct(shape.panels.x).transpose(), RowMatrix::Zero(1, joined.points);
-  const double mean = (joined.on_nodes(moment) * position)[0];
-  BOOST_TEST(std::abs(2 * mean - 4.0 / 3 * (std::pow(0.5, 4) + std::pow(0.8, 4))) < 1e-11);
+  for (const std::size_t k : {0, 1}) {
+    const Curve panels = panels_of(joined, shape, k);
+    RowMatrix moment(1, 2 * panels.size());
+    moment << panels.area.cwiseProduct(panels.x).transpose(), RowMatrix::Zero(1, panels.size());
+    const double mean = (joined.parts[k].on_nodes(moment) * position(joined.rows(k)))[0];
+    BOOST_TEST(std::abs(2 * mean - 4.0 / 3 * std::pow(k == 0 ? 0.5 : 0.8, 4)) < 1e-11);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(membranes_of_one_flow_have_panels_of_one_kind) {
