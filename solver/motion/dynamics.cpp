@@ -33,6 +33,17 @@ struct Loads {
   }
 };
 
+// A matrix times one that has no entries between different membranes, which stand in these rows.
+Matrix times_blocks(const Matrix &matrix, const Matrix &blocks,
+                    const std::vector<std::vector<Eigen::Index>> &rows) {
+  Matrix product(matrix.rows(), blocks.cols());
+  for (const std::vector<Eigen::Index> &of_membrane : rows) {
+    const Matrix columns = matrix(Eigen::all, of_membrane), block = blocks(of_membrane, of_membrane);
+    product(Eigen::all, of_membrane) = columns * block;
+  }
+  return product;
+}
+
 Dynamics standard_dynamics(const Case &physics) {
   Dynamics dynamics;
   dynamics.scene = std::make_shared<const Scene>(make_scene(physics));
@@ -72,7 +83,7 @@ Dynamics standard_dynamics(const Case &physics) {
       load -=
           flow->friction_jacobian(interaction, flow->solve(interaction, loads.f(position), copy).velocity);
     }
-    return mobility * load;
+    return times_blocks(mobility, load, loads.rows);
   };
   return dynamics;
 }
