@@ -65,6 +65,36 @@ Gap nearest(const Chain &a, const Chain &b, bool of_chords, Gap found) {
   return found;
 }
 
+// How far the meridian may reach from each node until the next one on either side, or the pole: twice the chords.
+Eigen::ArrayXd reach_of_nodes(const Chain &nodes) {
+  const Eigen::Index n = nodes.x.size();
+  Eigen::ArrayXd chords(n + 1); // at the poles twice the distance to the axis
+  chords[0] = 2 * nodes.r[0];
+  chords[n] = 2 * nodes.r[n - 1];
+  for (Eigen::Index k = 1; k < n; ++k)
+    chords[k] = std::hypot(nodes.x[k] - nodes.x[k - 1], nodes.r[k] - nodes.r[k - 1]);
+  return 2 * chords.head(n).max(chords.tail(n));
+}
+
+// The part of a chain from the node before the first one that may be nearest to the other membrane's nodes to the node
+// behind the last one.
+Chain near_part(const MeridianBasis &basis, const Vector &position, const Eigen::ArrayXd &surely_apart,
+                double gap_at_nodes, int chords_per_node) {
+  const Eigen::Index n = basis.size();
+  Eigen::Index first = 0, last = n - 1;
+  while (first < last && surely_apart[first] > gap_at_nodes)
+    ++first;
+  while (last > first && surely_apart[last] > gap_at_nodes)
+    --last;
+  const double from = first == 0 ? 0 : basis.nodes[first - 1];
+  const double to = last == n - 1 ? std::numbers::pi : basis.nodes[last + 1];
+  const Vector all = Vector::LinSpaced(chords_per_node * n + 1, 0, std::numbers::pi);
+  const double *const begin = std::upper_bound(all.data() + 1, all.data() + all.size(), from) - 1;
+  const double *const end = std::lower_bound(begin, all.data() + all.size() - 1, to) + 1;
+  const Vector zeta = Eigen::Map<const Vector>(begin, end - begin);
+  return {basis.even(zeta, 0, position.head(n)), basis.odd(zeta, 0, position.tail(n))};
+}
+
 } // namespace
 
 Chain chain_of(const MeridianBasis &basis, const Vector &position, int chords_per_node) {
@@ -80,6 +110,24 @@ bool overlap(const Chain &a, const Chain &b) {
 Gap gap_between(const Chain &a, const Chain &b) {
   const Gap from_a = nearest(a, b, false, {std::numeric_limits<double>::infinity(), 0, 0});
   return nearest(b, a, true, from_a);
+}
+
+Gap gap_between(const MeridianBasis &basis_a, const Vector &position_a, const MeridianBasis &basis_b,
+                const Vector &position_b, int chords_per_node) {
+  const Eigen::Index n_a = basis_a.size(), n_b = basis_b.size();
+  const Chain a{position_a.head(n_a), position_a.tail(n_a)}, b{position_b.head(n_b), position_b.tail(n_b)};
+  const Eigen::ArrayXd reach_a = reach_of_nodes(a), reach_b = reach_of_nodes(b);
+  // Distances of the nodes, and what surely lies between a node's surroundings and the other membrane.
+  Eigen::ArrayXXd distance(n_a, n_b);
+  for (Eigen::Index j = 0; j < n_b; ++j)
+    distance.col(j) = ((a.x.array() - b.x[j]).square() + (a.r.array() - b.r[j]).square()).sqrt();
+  const double gap_at_nodes = distance.minCoeff();
+  distance.rowwise() -= reach_b.transpose();
+  distance.colwise() -= reach_a;
+  return gap_between(
+      near_part(basis_a, position_a, distance.rowwise().minCoeff(), gap_at_nodes, chords_per_node),
+      near_part(basis_b, position_b, distance.colwise().minCoeff().transpose(), gap_at_nodes,
+                chords_per_node));
 }
 
 } // namespace capsule

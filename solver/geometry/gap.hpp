@@ -20,5 +20,8 @@ struct Gap {
   double width, x, r;
 };
 Gap gap_between(const Chain &a, const Chain &b);
+// Of two membranes at their positions. Chains are made only where the nodes tell that these may be nearest.
+Gap gap_between(const MeridianBasis &basis_a, const Vector &position_a, const MeridianBasis &basis_b,
+                const Vector &position_b, int chords_per_node);
 
 } // namespace capsule

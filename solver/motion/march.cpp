@@ -384,10 +384,10 @@ private:
   // Of one capsule and the one before it.
   double gap_to_leader(std::size_t capsule, const Vector &position) const {
     constexpr int chords = 8;
-    const auto chain = [&](std::size_t k) {
-      return chain_of(dynamics_.scene->membrane_of(k).basis, part(position, k), chords);
-    };
-    return gap_between(chain(capsule - 1), chain(capsule)).width;
+    const Scene &scene = *dynamics_.scene;
+    return gap_between(scene.membrane_of(capsule - 1).basis, part(position, capsule - 1),
+                       scene.membrane_of(capsule).basis, part(position, capsule), chords)
+        .width;
   }
 
   double beyond_bearing_of(std::size_t capsule, const Vector &position) const {

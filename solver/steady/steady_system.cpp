@@ -193,10 +193,10 @@ void SteadySystem::require_shape(const Vector &position) const {
 }
 
 double SteadySystem::gap_to_next(const Vector &position) const {
-  const Chain here = chain_of(membrane_.basis, position, 8);
-  Chain next = here;
-  next.x.array() += input_.flow.period;
-  return gap_between(here, next).width;
+  constexpr int chords = 8;
+  Vector next = position;
+  next.head(nodes()).array() += input_.flow.period;
+  return gap_between(membrane_.basis, position, membrane_.basis, next, chords).width;
 }
 
 Vector SteadySystem::residual(const Vector &unknowns) const {

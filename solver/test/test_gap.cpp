@@ -8,19 +8,26 @@ using namespace capsule;
 namespace {
 
 const MeridianBasis basis = spectral_basis(32);
+constexpr int chords = 16; // per node
 
-Chain sphere(double centre, double radius) {
+Vector sphere_nodes(double centre, double radius) {
   Vector position(64);
   position << centre - radius * basis.nodes.array().cos(), radius * basis.nodes.array().sin();
-  return chain_of(basis, position, 16);
+  return position;
+}
+Chain sphere(double centre, double radius) {
+  return chain_of(basis, sphere_nodes(centre, radius), chords);
 }
 
 // A bowl that opens upstream: its rim lies at x = -0.81, the bottom of its hollow at 0.5.
-Chain bowl() {
+Vector bowl_nodes() {
   Vector position(64);
   const auto zeta = basis.nodes.array();
   position << 0.8 * (2 * zeta).cos() - 0.3 * zeta.cos(), zeta.sin();
-  return chain_of(basis, position, 16);
+  return position;
+}
+Chain bowl() {
+  return chain_of(basis, bowl_nodes(), chords);
 }
 
 } // namespace
@@ -55,6 +62,22 @@ BOOST_AUTO_TEST_CASE(one_stands_in_the_hollow_of_the_other) {
   BOOST_TEST(found.width <= 0.05 + 1e-12);
   BOOST_TEST(std::abs(std::hypot(found.x - (rear - 0.35), found.r) - 0.3 - found.width) < 1e-3 * found.width);
   BOOST_TEST(overlap(outer, sphere(rear - 0.25, 0.3)));
+}
+
+// Chains of the parts that may be nearest have the gap of the whole ones.
+BOOST_AUTO_TEST_CASE(membranes_have_the_gap_of_their_chains) {
+  const auto compare = [](const Vector &a, const Vector &b) {
+    const Gap found = gap_between(basis, a, basis, b, chords);
+    const Gap whole = gap_between(chain_of(basis, a, chords), chain_of(basis, b, chords));
+    BOOST_TEST(std::abs(found.width - whole.width) < 1e-14);
+    BOOST_TEST(std::hypot(found.x - whole.x, found.r - whole.r) < 1e-7);
+  };
+  const double rear = bowl().x[0];
+  for (const double width : {1e-3, 0.03, 0.4, 3.0}) {
+    compare(sphere_nodes(2, 0.8), sphere_nodes(1.2 - width - 0.5, 0.5));
+    compare(bowl_nodes(), sphere_nodes(rear - width - 0.3, 0.3)); // nearest to the bottom, or to the rim
+    compare(bowl_nodes(), sphere_nodes(-0.9 - width - 0.9, 0.9));
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
