@@ -188,8 +188,9 @@ constexpr std::array quantities{
                          "neighbouring membranes",
                      .value = &SeriesRow::min_gap,
                      .unit = metre,
-                     .error = ErrorEstimate::of_marches,
+                     .error = ErrorEstimate::of_all,
                      .of_the_pore = true,
+                     .branch_column = 14,
                      .if_asked = true},
 };
 static_assert(quantities.size() * sizeof(double) == sizeof(SeriesRow), "a line for each member of SeriesRow");

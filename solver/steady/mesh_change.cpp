@@ -112,4 +112,14 @@ SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state, cons
   }
 }
 
+SteadyState on_coarser_wall(const SteadyState &state, double longer) {
+  const SteadySystem &system = *state.system;
+  Resolution resolution = system.resolution();
+  resolution.flow.wall_panel *= longer;
+  const double tip = state.unknowns.head(system.nodes()).cwiseAbs().maxCoeff();
+  const auto coarser =
+      std::make_shared<SteadySystem>(system.input(), resolution, system.membrane().node_angle, tip);
+  return {coarser, solve_steady(*coarser, state.unknowns)};
+}
+
 } // namespace capsule

@@ -34,5 +34,7 @@ Vector moved_to(const SteadySystem &to, const SteadySystem &from, const Vector &
 SteadyState moved_to_mesh(const Case &input, int nodes, const SteadyState &state);
 // The state itself on so many nodes; if need be by way of a stiffer membrane.
 SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state, const Control &control = {});
+// ... on its own nodes, in a tube whose panels are so many times longer.
+SteadyState on_coarser_wall(const SteadyState &state, double longer);
 
 } // namespace capsule

@@ -4,13 +4,15 @@
 #include "steady/mesh_change.hpp"
 #include <map>
 #include <string>
+#include <vector>
 
 namespace capsule {
 
 struct RefinedState {
   SteadyState state;
-  std::map<std::string, double> error_estimate; // from the mesh before and the two pressure drops
+  std::map<std::string, double> error_estimate; // from coarser meshes and the two pressure drops
   std::string warning;                          // when they are larger than asked for
+  std::vector<SteadyState> coarser = {};        // of a train: what it was compared with
 };
 // Until the last two meshes agree to the accuracy asked for, in the pressure drop and other integrals to a tenth of it.
 // With a given mesh.membrane, on that mesh and on one of three quarters of its nodes. Throws NumericsFailure,
@@ -21,9 +23,13 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
 struct SteadyRecord {
   SeriesRow row;
   Profile profile;
-  // growth_rate, oscillation_rate, growth_per_length; of a train apparent_viscosity, pairing_growth_rate and min_gap, too
+  // growth_rate, oscillation_rate, growth_per_length; of a train apparent_viscosity and pairing_growth_rate, too
   std::map<std::string, double> further;
 };
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
+
+// Of `further` of a train, as of all else: the differences from coarser meshes and the error of the quadrature.
+std::map<std::string, double> errors_of_further(const RefinedState &refined, const SteadyRecord &record,
+                                                double viscosity_ratio);
 
 } // namespace capsule

@@ -24,6 +24,7 @@ Outcome steady(const Case &input, const std::optional<Profile> &from, const Cont
       if (!remark.empty())
         outcome.message += (outcome.message.empty() ? "" : "; ") + remark;
     outcome.error_estimate = refined.error_estimate;
+    outcome.error_estimate.merge(errors_of_further(refined, record, input.flow.viscosity_ratio));
     outcome.further = record.further;
     outcome.membrane_nodes = static_cast<int>(refined.state.system->nodes());
     outcome.last.series = {record.row};

@@ -84,7 +84,7 @@ std::string rows_of(const Train &train) {
       const Numbers exact = is_rigid ? rigid_limit(physics, finer) : on_fine;
       rows += fmt::format("{}{},{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f},{:.6f},{:.6f},{:.9f}",
                           rows.empty() ? "" : "\n", train.law, train.radius, train.capillary_number,
-                          physics.flow.period, is_rigid ? spacing : record.further.at("min_gap"), exact.speed,
+                          physics.flow.period, is_rigid ? spacing : record.row.min_gap, exact.speed,
                           exact.pressure_drop, rough.speed, rough.pressure_drop,
                           1 + exact.pressure_drop / (8 * physics.flow.period),
                           record.further.at("growth_rate"), record.further.at("pairing_growth_rate"));
