@@ -13,12 +13,30 @@ plot 0 with lines linecolor "gray", for [k=1:5] capsule_file(k) using "time":(co
 unset multiplot
 print sprintf("**Five in a row**, numbered from the front: the middle one, 3, becomes one of a train. Opposed neighbours in the train move with the growth rate %.5f; twice the slope of the speed at which two alone part is %.5f.", steady("3"), steady("4"))
 
-eval figure("errors", 11, 9)
-set logscale xy; set xrange [1e-10:1e-1]; set yrange [1e-10:1e-1]; set format "10^{%T}"
+eval figure("reservoir", 11, 9)
+distances = "results/".case."/reservoir.csv"
+set logscale xy; set xrange [1.8:10]; set yrange [1e-4:1e-2]; set format y "10^{%T}"; set xtics (2, 3, 4, 6, 9)
+set xlabel "distance of the centres / {/:Italic R}_t"; set ylabel "change of the second one's speed"
+set key top right
+plot distances using "distance":"change" with linespoints linetype 1 notitle, \
+  0.0165*x**-2 with lines linecolor "gray" dashtype 2 title "distance^{-2}"
+print "**In the reservoir** capsules feel each other farther than in the tube: the first one is 6 radii in front of the mouth, the second one behind it."
+
+eval figure("errors", 17, 9)
+set multiplot layout 1, 2
+set logscale xy; set xrange [1e-10:1e-1]; set yrange [1e-10:1e-1]; set format "10^{%T}"; set xtics 1e-10, 100
 set xlabel "difference from a refined run"; set ylabel "estimated error"
 set key top left
-plot x with lines linecolor "gray", 30*x with lines linecolor "gray" dashtype 2, \
-  "< grep -e gap# -e capsules results/".case."/pairs.csv" using "difference":"estimate" with points linetype 1 title "smallest gap", \
-  "< grep -e share -e capsules results/".case."/pairs.csv" using "difference":"estimate" with points linetype 2 title "shares of the pressure drop", \
-  "< grep -e drop -e capsules results/".case."/trains.csv" using "difference":"estimate" with points linetype 3 title "pressure drop of trains"
-print "**Error estimates** of eight pairs, the largest along the way, and eight trains. Between the lines: one to thirty times the error."
+of(file, quantity) = "< grep -e ".quantity." -e capsules results/".case."/".file
+plot x with lines linecolor "gray" notitle, 30*x with lines linecolor "gray" dashtype 2 notitle, \
+  of("pairs.csv", "gap#") using "difference":"estimate" with points linetype 1 title "pairs: smallest gap", \
+  of("pairs.csv", "share") using "difference":"estimate" with points linetype 2 title "shares of the drop", \
+  of("pairs.csv", "spacing") using "difference":"estimate" with points linetype 3 title "spacing"
+unset ylabel
+plot x with lines linecolor "gray" notitle, 30*x with lines linecolor "gray" dashtype 2 notitle, \
+  of("trains.csv", "drop") using "difference":"estimate" with points linetype 1 title "trains: pressure drop", \
+  of("trains.csv", "v_g") using "difference":"estimate" with points linetype 2 title "speed", \
+  of("trains.csv", "min_gap") using "difference":"estimate" with points linetype 3 title "smallest gap", \
+  of("trains.csv", "rate") using "difference":"estimate" with points linetype 4 title "growth rates"
+unset multiplot
+print "**Error estimates** of eight pairs, the largest along the way, and of sixteen trains. Between the lines: one to thirty times the error."
