@@ -6,13 +6,14 @@
 
 namespace capsule {
 
-std::optional<Profile> march_to_rest(const Case &target, const Control &control) {
-  constexpr double way = 16, beyond = 8;
+std::optional<Profile> march_to_rest(const Case &target, MarchLength length, const Control &control) {
+  constexpr double long_way = 16, behind_mouth = 1.5, beyond = 8;
   constexpr double step = 0.15; // of a march, in linearisations of a steady state
   if (target.flow.type != FlowType::pore || target.flow.drive != DriveBy::flow_rate)
     return {};
+  const bool is_long = length == MarchLength::far_into_tube;
   Case input = target;
-  input.accuracy = 1e-4; // enough for a beginning; on coarser meshes thin membranes wrinkle
+  input.accuracy = is_long ? 1e-4 : 3e-3; // on coarse meshes thin membranes wrinkle
   if (input.pore.shape == PoreShape::two_mouths)
     input.pore.shape = PoreShape::hyperbolic;
   input.flow.viscosity_ratio = 1;
@@ -21,7 +22,8 @@ std::optional<Profile> march_to_rest(const Case &target, const Control &control)
   input.time = {};
   input.output = {};
   input.until = {};
-  input.until.x_g = input.capsule.start_x + way;
+  input.until.x_g =
+      is_long ? input.capsule.start_x + long_way : extent(input.capsule).half_length + behind_mouth;
   input.pore.exit_x = *input.until.x_g + beyond;
   const double nodes = choose_resolution(input).membrane_nodes;
   Control each_step;

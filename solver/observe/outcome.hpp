@@ -86,6 +86,10 @@ inline void throw_if_interrupted(const Control &control) {
     throw Interrupted{};
 }
 
+// A march that begins the search for a steady state: to just behind the mouth, or far into the tube, where a capsule may
+// come to rest later.
+enum class MarchLength { into_tube, far_into_tube };
+
 // Thrown by `spend` where a search has done the work that it may cost.
 struct Exhausted {};
 // Asks for a number of linearisations of a steady state on so many nodes. The work is counted in those on 48 nodes, whose

@@ -5,6 +5,7 @@
 #include "steady/newton.hpp"
 #include "steady/relaxation.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -61,6 +62,16 @@ int nodes_of(const Profile &profile) {
   return std::clamp(static_cast<int>(profile.S.size() / 4), first_nodes, most_nodes);
 }
 
+// The shape on so many nodes, where it needs them.
+SteadyState on_suitable_nodes(const Case &input, const Profile &profile, int nodes) {
+  const auto on_nodes_of = [&](std::shared_ptr<SteadySystem> system) -> SteadyState {
+    const Vector unknowns = unknowns_of(profile, system->membrane());
+    return {std::move(system), unknowns};
+  };
+  const SteadyState even = on_nodes_of(system_on_mesh(input, spectral_basis(nodes_of(profile)).nodes));
+  return on_nodes_of(system_on_mesh(input, nodes, even));
+}
+
 } // namespace
 
 std::string other_capsule(const Case &input, const Profile &profile) {
@@ -81,25 +92,34 @@ std::string other_capsule(const Case &input, const Profile &profile) {
   return differ.empty() ? "" : "the profile to begin with is of another capsule: " + differ;
 }
 
-SteadyState from_profile(const Case &input, const Profile &profile, const Control &control) {
-  const int nodes = nodes_of(profile);
-  const auto on_nodes_of = [&](std::shared_ptr<SteadySystem> system) -> SteadyState {
-    const Vector unknowns = unknowns_of(profile, system->membrane());
-    return {std::move(system), unknowns};
-  };
-  const SteadyState even = on_nodes_of(system_on_mesh(input, spectral_basis(nodes).nodes));
-  SteadyState state = on_nodes_of(system_on_mesh(input, nodes, even));
-  try {
-    state.unknowns = solve_steady(*state.system, state.unknowns);
-  } catch (const NumericsFailure &) {
+std::optional<SteadyState> solved_from_profile(const Case &input, const Profile &profile,
+                                               const Control &control) {
+  constexpr std::array finer{
+      1.0, 1.35, 2.4}; // times the nodes of the profile: a sharp rim may need more than a march has
+  constexpr double work_of_newton = 6;
+  for (const double more : finer)
     try {
-      state.unknowns = solve_steady(*state.system, relaxed(*state.system, state.unknowns, control));
-    } catch (const NumericsFailure &) {
-      if (const std::string other = other_capsule(input, profile); !other.empty())
-        throw NumericsFailure(failure_kind::unresolved, other,
-                              "begin with a profile of this one, or leave --from away");
-      throw;
+      const int nodes = std::min(static_cast<int>(more * nodes_of(profile)), most_nodes);
+      spend(control, work_of_newton, nodes);
+      SteadyState state = on_suitable_nodes(input, profile, nodes);
+      state.unknowns = solve_steady(*state.system, state.unknowns);
+      return state;
+    } catch (const NumericsFailure &) { // a finer mesh may resolve it
     }
+  return {};
+}
+
+SteadyState from_profile(const Case &input, const Profile &profile, const Control &control) {
+  if (auto state = solved_from_profile(input, profile, control))
+    return *state;
+  SteadyState state = on_suitable_nodes(input, profile, nodes_of(profile));
+  try {
+    state.unknowns = solve_steady(*state.system, relaxed(*state.system, state.unknowns, control));
+  } catch (const NumericsFailure &) {
+    if (const std::string other = other_capsule(input, profile); !other.empty())
+      throw NumericsFailure(failure_kind::unresolved, other,
+                            "begin with a profile of this one, or leave --from away");
+    throw;
   }
   return state;
 }

@@ -10,7 +10,7 @@
 namespace capsule {
 
 Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
-  constexpr int most_steps = 300;
+  constexpr int most_steps = 200;
   constexpr double first_step = 0.2, shortest_step = 1e-5, long_step = 2;
   constexpr double intended = 0.25, too_much = 0.7; // part of the motion that its linearisation misses
   constexpr double near = 3e-3;                     // a change that Newton's method can take up
@@ -72,6 +72,25 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
                           "try a smaller flow.capillary_number");
   throw NumericsFailure(failure_kind::unresolved, "the shape does not come to rest in the tube",
                         "begin with a profile of a march at a later x_g (--from)");
+}
+
+Case with_stiff_membrane(Case input) {
+  constexpr double stiff = 1e-2;
+  input.membrane.bending_ratio = std::max(stiff, input.membrane.bending_ratio);
+  return input;
+}
+
+SteadyState let_loose(const Case &input, const Control &control) {
+  SteadyState state{first_system(input), {}};
+  Vector shape = state.system->initial();
+  if (state.system->pore()) {
+    const Eigen::Index n = state.system->nodes();
+    const double squeeze = std::min(1.0, widest_unsqueezed / shape.segment(n, n).maxCoeff());
+    shape.segment(n, n) *= squeeze;
+    shape.head(n) /= squeeze * squeeze;
+  }
+  state.unknowns = relaxed(*state.system, shape, control);
+  return state;
 }
 
 } // namespace capsule

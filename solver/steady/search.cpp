@@ -2,12 +2,12 @@
 #include "base/failure.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
-#include "steady/fold_curve.hpp"
 #include "steady/from_profile.hpp"
 #include "steady/growth_rates.hpp"
 #include "steady/homotopy.hpp"
 #include "steady/newton.hpp"
 #include "steady/relaxation.hpp"
+#include "steady/strong_flow.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,13 +22,9 @@ namespace capsule {
 namespace {
 
 // Where the homotopy begins, unless the case has less: a weaker flow, a smaller capsule, a stiffer shell.
-constexpr double weak_flow = 5e-3;
 constexpr double small_radius = 0.6;
 constexpr double stiff_bending = 2e-2; // a shell that does not buckle
-// The capsule relaxes with this one. Softer shells buckle on the way to a shape that does not.
-constexpr double bending_to_relax = 1e-2;
-constexpr int most_to_relax_on = 70; // nodes
-constexpr double thinnest = 1e-7;    // from here on the case's own is near enough
+constexpr int most_to_relax_on = 70;   // nodes
 // The membrane relaxes with a modulus of area up to this one. Stiffer ones would need steps that are too short.
 constexpr std::array area_keys{"membrane.dilatation", "membrane.area_modulus"};
 constexpr double area_modulus_to_relax = 100;
@@ -43,26 +39,6 @@ Homotopy from_a_stiff_sphere(const Case &target, const Control &control) {
     begin.capsule.radius = std::min(small_radius, target.capsule.radius);
   const auto system = first_system(begin);
   return {target, begin, {system, solve_steady(*system, system->initial())}, control};
-}
-
-Case with_stiff_membrane(Case input) {
-  input.membrane.bending_ratio = std::max(bending_to_relax, input.membrane.bending_ratio);
-  return input;
-}
-
-// The capsule let loose in the tube: undeformed, or squeezed if it is wider than that.
-SteadyState let_loose(const Case &input, const Control &control) {
-  constexpr double widest = 0.85;
-  SteadyState state{first_system(input), {}};
-  Vector shape = state.system->initial();
-  if (state.system->pore()) {
-    const Eigen::Index n = state.system->nodes();
-    const double squeeze = std::min(1.0, widest / shape.segment(n, n).maxCoeff());
-    shape.segment(n, n) *= squeeze;
-    shape.head(n) /= squeeze * squeeze;
-  }
-  state.unknowns = relaxed(*state.system, shape, control);
-  return state;
 }
 
 // A state on so many nodes: by Newton's method, or if it does not get there from rest to rest.
@@ -118,18 +94,6 @@ Homotopy in_a_flow(double strength, const Case &target, const Control &control) 
   return homotopy;
 }
 
-// Whether a branch ends for good: in a fold, or where the membrane's law softens.
-bool ends_branch(const NumericsFailure &failure) {
-  return failure.kind == failure_kind::fold || failure.kind == failure_kind::softening;
-}
-
-// What such an end on the way of growing flow says of the case.
-NumericsFailure no_steady_state(const NumericsFailure &end) {
-  const char *none =
-      end.kind == failure_kind::softening ? "no steady state that a mesh resolves" : "no steady state";
-  return {end.kind, fmt::format("{}: {}", none, end.what()), end.advice};
-}
-
 // The same of one on another way, which says nothing of the case.
 NumericsFailure of_this_way(const NumericsFailure &end) {
   return ends_branch(end)
@@ -137,70 +101,60 @@ NumericsFailure of_this_way(const NumericsFailure &end) {
              : end;
 }
 
-// The fold that a growing flow meets before the case's own, if it does: that of a stiff membrane, which few nodes show,
-// followed to the case's. A soft membrane may need more nodes than are worth their time; the fold hardly moves there.
-std::optional<NumericsFailure> fold_of_weaker_flow(const Case &input, const Control &control) {
-  constexpr int finest = 120; // nodes
-  constexpr double safe = 3;
-  const double flow = input.flow.capillary_number;
-  const double thin = std::max(input.membrane.bending_ratio, thinnest);
-  Case stiff = with_stiff_membrane(input);
-  if (stiff.mesh.membrane == 0)
-    stiff.mesh.membrane = finest;
-  double start = flow;
-  while (start > weak_flow) { // to a flow in which it comes to rest
-    start /= 4;
-    Case weaker = stiff;
-    weaker.flow.capillary_number = start;
-    const KeyPath key(flow_key, weaker, flow), second(bending_key, weaker, thin);
-    double value = 0, part = 0, bending = 0, slope = 0; // of the last fold, and d value/d log(bending)
-    try {
-      Homotopy homotopy(stiff, weaker, let_loose(weaker, control), control);
-      try {
-        homotopy.vary(flow_key, flow);
-        return {};
-      } catch (const NumericsFailure &failure) {
-        if (failure.kind != failure_kind::fold)
-          throw;
-      }
-      Homotopy::Fold fold = homotopy.fold();
-      part = fold.part;
-      value = key.value(part);
-      bending = weaker.membrane.bending_ratio;
-      if (second.needed())
-        follow_fold(fold.state, {fold.state.unknowns, fold.part, 0},
-                    fold.tangent.head(fold.state.unknowns.size()), key, second, finest, control,
-                    [&](const SteadyState & /*state*/, const FoldPoint &point) {
-                      part = point.part;
-                      const double before = std::exchange(value, key.value(part));
-                      const double stiffer = std::exchange(bending, second.value(point.second_part));
-                      if (bending < stiffer)
-                        slope = (value - before) / std::log(bending / stiffer);
-                    });
-    } catch (const NumericsFailure &) {
-      if (value == 0)
-        continue;
-    }
-    if (second.needed() && slope == 0)
-      return {}; // the fold is that of the stiff membrane only
-    const double change = safe * std::abs(slope * std::log(thin / bending)); // that is left
-    if (value + change > flow)
-      return {};
-    const std::string place =
-        bending == thin ? "at " + key.text(part)
-                        : fmt::format("near {}, where it is for {} = {:.2g}; it lies within {:.1g} of that",
-                                      key.text(part), bending_key, bending, change);
-    return no_steady_state({failure_kind::fold, "fold " + place, "stay on the near side of it"});
+// What a search has tried and seen, for its last word.
+struct Attempts {
+  std::vector<std::string> seen;
+  std::string kind =
+      failure_kind::unresolved; // what the capsule's own motion ended with, if it did not arrive
+
+  void add(const std::string &attempt, const NumericsFailure &failure) {
+    seen.push_back(fmt::format("{}: {}", attempt, failure.what()));
+  }
+};
+
+// A stiff membrane whose law softens proves nothing, but it tells.
+std::optional<SteadyState> by_stiff_membrane(const Case &input, const Control &control, Attempts &attempts) {
+  try {
+    return by_stiff_membrane(input, control);
+  } catch (const NumericsFailure &failure) {
+    if (failure.kind != failure_kind::softening)
+      throw;
+    attempts.add("with a stiff membrane", failure);
+    attempts.kind = failure.kind;
   }
   return {};
 }
 
-// What it tried and saw is added to `tried`.
+// From the end of a march into the tube, or where that is not near enough of one far into it. Between the two it is asked
+// whether the flow is too strong: a long march of a capsule that runs away or wrinkles is dear.
+std::optional<SteadyState> by_march(const Case &input, const Control &control, const MarchToRest &march,
+                                    Attempts &attempts) {
+  try {
+    if (const auto end = march(input, MarchLength::into_tube, control))
+      if (auto state = solved_from_profile(input, *end, control))
+        return state;
+  } catch (const NumericsFailure &failure) {
+    attempts.add("marched into the tube", failure);
+  }
+  if (auto state = by_stiff_membrane(input, control, attempts))
+    return state;
+  try {
+    if (const auto end = march(input, MarchLength::far_into_tube, control))
+      return from_profile(input, *end, control);
+  } catch (const NumericsFailure &failure) {
+    attempts.add("marched far into the tube", failure);
+    if (failure.kind == failure_kind::softening || failure.kind == failure_kind::wrinkled)
+      attempts.kind = failure.kind;
+  }
+  return {};
+}
+
 SteadyState searched(const Case &input, const Control &control, const MarchToRest &march,
-                     std::vector<std::string> &tried) {
+                     Attempts &attempts) {
   const double flow = input.flow.capillary_number;
   std::optional<NumericsFailure> last;
-  bool has_run_away = false;
+  bool has_run_away = false, has_marched = false;
+  const bool fits = extent(input.capsule).half_width <= widest_unsqueezed;
   constexpr double weakest_part = 0.125;
   // Parts of the flow, in which the capsule may come to rest. Where its law softens before, a branch from a much weaker flow
   // tells where: coarse meshes have states beyond that place, from which no finer mesh goes on.
@@ -222,19 +176,19 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
       if (only_flow_is_left && ends_branch(failure))
         throw no_steady_state(failure);
       last = failure;
-      tried.push_back(
-          fmt::format("relaxed at {} = {:.3g}: {}", flow_key, weaker.flow.capillary_number, failure.what()));
+      attempts.add(fmt::format("relaxed at {} = {:.3g}", flow_key, weaker.flow.capillary_number), failure);
+      if (part == 1 && failure.kind == failure_kind::softening && fits)
+        attempts.kind = failure.kind;
     }
-    if (last->kind == failure_kind::unbounded && !std::exchange(has_run_away, true))
-      if (const auto fold = fold_of_weaker_flow(input, control))
-        throw NumericsFailure(*fold);
-    if (part == 1 && last->kind == failure_kind::unresolved && march)
-      try {
-        if (const auto end = march(input, control))
-          return from_profile(input, *end, control);
-      } catch (const NumericsFailure &failure) {
-        tried.push_back(fmt::format("marched: {}", failure.what()));
-      }
+    if (last->kind == failure_kind::unbounded) {
+      if (!std::exchange(has_run_away, true))
+        if (auto state = by_stiff_membrane(input, control, attempts))
+          return *state;
+    } else if (march && !has_marched && (part < 1 || last->kind != failure_kind::softening)) {
+      has_marched = true;
+      if (auto state = by_march(input, control, march, attempts))
+        return *state;
+    }
   }
   if (input.capsule.shape != CapsuleShape::spheroid) // a small stiff sphere does not become one
     throw of_this_way(*last);
@@ -252,8 +206,7 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
         throw no_steady_state(failure);
       if (!first)
         first = failure;
-      tried.push_back(
-          fmt::format("from a small stiff sphere at {} = {:.3g}: {}", flow_key, strength, failure.what()));
+      attempts.add(fmt::format("from a small stiff sphere at {} = {:.3g}", flow_key, strength), failure);
     }
   }
   const NumericsFailure last_word = of_this_way(*first);
@@ -272,7 +225,7 @@ bool is_unstable(const SteadyState &state) {
 std::optional<SteadyState> stable_state_by_march(const Case &input, const Control &control,
                                                  const MarchToRest &march) {
   try {
-    if (const auto end = march(input, control))
+    if (const auto end = march(input, MarchLength::far_into_tube, control))
       if (SteadyState state = from_profile(input, *end, control); !is_unstable(state))
         return state;
   } catch (const NumericsFailure &) { // the unstable state is what there is
@@ -292,20 +245,21 @@ SteadyState without_neighbours(const Case &input, const Control &control, const 
     if (work > most_work_of_search)
       throw Exhausted{};
   };
-  std::vector<std::string> tried;
+  Attempts attempts;
   try {
-    SteadyState state = searched(input, limited, march, tried);
+    SteadyState state = searched(input, limited, march, attempts);
     if (march && is_unstable(state))
       if (auto other = stable_state_by_march(input, limited, march))
         return *other;
     return state;
   } catch (const Exhausted &) {
-    throw NumericsFailure(failure_kind::unresolved,
-                          fmt::format("no steady state found in the work that a search may cost ({})",
-                                      tried.empty() ? "relaxing" : fmt::format("{}", fmt::join(tried, "; "))),
-                          "try a weaker flow, or a larger membrane.bending_ratio, whose shapes are smoother, "
-                          "or begin with a profile of a "
-                          "march (--from)");
+    throw NumericsFailure(
+        attempts.kind,
+        fmt::format("no steady state found in the work that a search may cost ({})",
+                    attempts.seen.empty() ? "relaxing" : fmt::format("{}", fmt::join(attempts.seen, "; "))),
+        "try a weaker flow, or a larger membrane.bending_ratio, whose shapes are smoother, "
+        "or begin with a profile of a "
+        "march (--from)");
   }
 }
 

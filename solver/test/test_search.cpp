@@ -1,0 +1,49 @@
+// Steady states that no undeformed capsule relaxes to: a flat one that a march finds, and flows that are too strong.
+#include "base/failure.hpp"
+#include "law/neo_hookean.hpp"
+#include "membranes.hpp"
+#include "motion/to_rest.hpp"
+#include "steady/search.hpp"
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <string>
+
+using namespace capsule;
+
+namespace {
+
+Case neo_hookean_capsule(double radius, double aspect_ratio, double flow, double bending_ratio) {
+  Case physics = capsule_case(radius, aspect_ratio, neo_hookean, bending_ratio);
+  physics.flow.capillary_number = flow;
+  return physics;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(search)
+
+// Wider than the tube, in a weak flow: a march folds it in the mouth. The state moves as the march's end does.
+BOOST_AUTO_TEST_CASE(a_flat_capsule_wider_than_the_tube) {
+  const Case flat = neo_hookean_capsule(0.7508, 0.3055, 0.00477, 6.85e-5);
+  const SteadyState state = search_steady(flat, {}, march_to_rest);
+  const Eigen::Index n = state.system->nodes();
+  const auto marched = march_to_rest(flat, MarchLength::into_tube, {});
+  BOOST_REQUIRE(marched.has_value());
+  BOOST_TEST(state.unknowns[2 * n] == marched->velocity_x.mean(), boost::test_tools::tolerance(2e-3));
+  BOOST_TEST(state.unknowns.segment(n, n).maxCoeff() == marched->r.maxCoeff(),
+             boost::test_tools::tolerance(2e-3));
+}
+
+// The fold of this sphere's branch lies at 0.170081. A little beyond it a stiff membrane still has a state, far beyond it has
+// none: both lead to the fold.
+BOOST_AUTO_TEST_CASE(a_flow_that_is_too_strong_is_told_the_critical_one) {
+  for (const double flow : {0.175, 0.3})
+    BOOST_CHECK_EXCEPTION(search_steady(neo_hookean_capsule(0.8, 1, flow, 1e-3), {}, march_to_rest),
+                          NumericsFailure, [](const NumericsFailure &failure) {
+                            return failure.kind == failure_kind::fold &&
+                                   std::string(failure.what()).find("flow.capillary_number = 0.17008") !=
+                                       std::string::npos;
+                          });
+}
+
+BOOST_AUTO_TEST_SUITE_END()
