@@ -37,13 +37,16 @@ BOOST_AUTO_TEST_CASE(a_flat_capsule_wider_than_the_tube) {
 // The fold of this sphere's branch lies at 0.170081. A little beyond it a stiff membrane still has a state, far beyond it has
 // none: both lead to the fold.
 BOOST_AUTO_TEST_CASE(a_flow_that_is_too_strong_is_told_the_critical_one) {
-  for (const double flow : {0.175, 0.3})
-    BOOST_CHECK_EXCEPTION(search_steady(neo_hookean_capsule(0.8, 1, flow, 1e-3), {}, march_to_rest),
-                          NumericsFailure, [](const NumericsFailure &failure) {
-                            return failure.kind == failure_kind::fold &&
-                                   std::string(failure.what()).find("flow.capillary_number = 0.17008") !=
-                                       std::string::npos;
-                          });
+  const auto told = [](double flow) -> std::string {
+    try {
+      search_steady(neo_hookean_capsule(0.8, 1, flow, 1e-3), {}, march_to_rest);
+    } catch (const NumericsFailure &failure) {
+      return failure.kind == failure_kind::fold ? failure.what() : "";
+    }
+    return "";
+  };
+  BOOST_TEST(told(0.175).find("fold at flow.capillary_number = 0.17008") != std::string::npos);
+  BOOST_TEST(told(0.3).find("fold near flow.capillary_number = 0.1") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
