@@ -1,5 +1,6 @@
 #include "program/commands.hpp"
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 #include "base/digest.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
@@ -25,6 +26,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -65,8 +67,10 @@ ExitCode compute_runs(const CaseInput &whole, const Arguments &arguments, const 
   const CaseInput input = arguments.only > 0 ? one_run_of(whole, arguments.only) : whole;
   write_run_list(whole, options.directory);
   const std::vector<RunResult> results = compute_case(input, arguments, computation);
-  if (const std::string remark = computation.task.motion ? unsteady_remark(results) : ""; !remark.empty())
-    fmt::print(stderr, "{}: {}\n", whole.name, remark);
+  if (computation.task.motion)
+    for (const std::string &remark : {wrinkle_remark(results), unsteady_remark(results)})
+      if (!remark.empty())
+        fmt::print(stderr, "{}: {}\n", whole.name, remark);
   if (std::ranges::any_of(results, is_interrupted))
     return ExitCode::interrupted;
   return std::ranges::any_of(results, has_failed) ? ExitCode::numerics_failed : ExitCode::done;
@@ -261,6 +265,33 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
       results.size() == 1 ? "" : fmt::format(", {} of {}", unsteady, counted(results.size(), "run")),
       unsteady == 1 ? "" : "up to ", fastest,
       by_x_g ? "a larger until.x_g (with pore.exit_x)" : "a larger until.time");
+}
+
+std::string wrinkle_remark(const std::vector<RunResult> &results) {
+  constexpr double wrinkled = 3; // dents
+  std::size_t runs = 0;
+  double most = 0, from = std::numeric_limits<double>::infinity(), to = -from;
+  for (const RunResult &result : results) {
+    if (!result.summary || !fs::exists(result.directory / "series.csv"))
+      continue;
+    Columns series = read_columns(result.directory / "series.csv");
+    const std::vector<double> &dents = series["dents"], &x_g = series["x_g"];
+    bool has_wrinkled = false;
+    for (std::size_t row = 0; row < std::min(dents.size(), x_g.size()); ++row)
+      if (dents[row] >= wrinkled) {
+        has_wrinkled = true;
+        most = std::max(most, dents[row]);
+        from = std::min(from, x_g[row]);
+        to = std::max(to, x_g[row]);
+      }
+    runs += has_wrinkled ? 1 : 0;
+  }
+  if (runs == 0)
+    return "";
+  return fmt::format(
+      "the membrane wrinkled{}: up to {:.0f} dents between x_g = {:.4g} and {:.4g}; a larger {} smooths it",
+      results.size() == 1 ? "" : fmt::format(" in {} of {}", runs, counted(results.size(), "run")), most,
+      from, to, bending_key);
 }
 
 } // namespace capsule

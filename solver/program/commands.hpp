@@ -23,4 +23,8 @@ ExitCode create_case(const std::string &id, const std::string &like);
 // their centre, than the accuracy that was asked for. Empty if there are none.
 std::string unsteady_remark(const std::vector<RunResult> &results);
 
+// One line about marches in which the membrane wrinkled, with at least three dents at once, from where to where. Empty if none
+// did. Throws as read_columns (base/csv.hpp).
+std::string wrinkle_remark(const std::vector<RunResult> &results);
+
 } // namespace capsule

@@ -1,21 +1,26 @@
 #include "program/list_keys.hpp"
 #include "case/keys.hpp"
+#include <algorithm>
 #include <fmt/format.h>
 #include <string>
 
 namespace capsule {
 
 ExitCode list_keys() {
+  std::size_t width = 0; // of the names, and two blanks
+  for (const Key &key : keys())
+    width = std::max(width, key.name.size() + 2);
+  const std::string below(width, ' ');
   std::string section;
   for (const Key &key : keys()) {
     const std::string here = key.name.substr(0, key.name.find('.'));
-    fmt::print("{}{:<33}{}\n{:<33}default: {}; allowed: {}{}\n", here == section ? "" : "\n", key.name,
-               key.meaning, "", default_text(key), allowed_text(key),
+    fmt::print("{}{:<{}}{}\n{}default: {}; allowed: {}{}\n", here == section ? "" : "\n", key.name, width,
+               key.meaning, below, default_text(key), allowed_text(key),
                key.of_each_capsule ? "; a list for several capsules" : "");
     if (!key.scope.key.empty())
-      fmt::print("{:<33}only with {}\n", "", scope_text(key));
+      fmt::print("{}only with {}\n", below, scope_text(key));
     for (const std::string &note : key.notes)
-      fmt::print("{:<33}{}\n", "", note);
+      fmt::print("{}{}\n", below, note);
     section = here;
   }
   fmt::print("\n{:<26}values of another case file, relative to this one, that this one overrides;\n"

@@ -1,6 +1,8 @@
 // What commands remark on the runs that they have computed.
 #include "program/commands.hpp"
+#include "temporary_directory.hpp"
 #include <boost/test/unit_test.hpp>
+#include <fstream>
 
 using namespace capsule;
 
@@ -47,4 +49,15 @@ BOOST_AUTO_TEST_CASE(marches_that_end_before_they_are_steady_are_remarked) {
   BOOST_TEST(unsteady_remark({results[2]}).find("until.time") != std::string::npos);
   results[2].summary.reset(); // interrupted
   BOOST_TEST(unsteady_remark({results[2]}) == "");
+}
+
+BOOST_AUTO_TEST_CASE(wrinkles_on_the_way_are_remarked) {
+  const TemporaryDirectory directory;
+  const RunResult result{{}, directory.path, Summary{}};
+  BOOST_TEST(wrinkle_remark({result}) == ""); // no series
+  std::ofstream(directory.path / "series.csv") << "x_g,dents\n1.5,2\n1.55,3\n2,4\n2.05,2\n";
+  BOOST_TEST(wrinkle_remark({result}).find("up to 4 dents between x_g = 1.55 and 2;") != std::string::npos);
+  BOOST_TEST(wrinkle_remark({result, {{}, "", Summary{}}}).find("in 1 of 2 runs") != std::string::npos);
+  std::ofstream(directory.path / "series.csv") << "x_g,dents\n1.5,2\n";
+  BOOST_TEST(wrinkle_remark({result}) == "");
 }
