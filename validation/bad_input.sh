@@ -78,6 +78,9 @@ printf '%s\ncapsule.start_x = [0, -3, -6]\nmembrane.bending_ratio = [0, 1]\n' "$
   bad '7:26: error: membrane.bending_ratio has 2 values for 3 capsules'
 printf '%s\ncapsule.start_x = [0, -1]\n' "$several" | bad '6:19: error: capsules 1 and 2 overlap at their start'
 printf '%s\ncapsule.start_x = [0, 3]\n' "$several" | bad '6:19: error: capsule 2 starts before the one that is to lead it'
+printf '%s\ncapsule.start_x = [0, -9]\n' "$several" | bad '6:19: error: capsule 2: capsule outside the reservoir'
+printf '%s\ncapsule.start_x = [0, -3]\n' "$several" | sed 's/radius = .*/radius = [0.8, 1.2]/' |
+  bad '6:19: error: capsule 2: capsule larger than the pore'
 printf '%s\ncapsule.start_x = [0, "-3"]\n' "$several" | bad '6:19: error: capsule.start_x must be a number'
 printf '%s\nuntil.last_x_g = 3\n' "$several" | bad '6:18: error: until.last_x_g is of several capsules'
 printf '%s\ncapsule.start_x = [0, -3]\nuntil.last_x_g = 20\n' "$several" |

@@ -279,7 +279,7 @@ RunInput build_run(Family &family, const Selection &selection, const Task &task,
   bool good = valid;
   const std::size_t capsules = Chosen{reader, selection}.capsules();
   for (std::size_t k = 0; k < capsules; ++k) {
-    Builder builder{{reader, selection, k}, task, {}, {}};
+    Builder builder{{reader, selection, k, true}, task, {}, {}};
     Usage usage;
     builder.apply_preset();
     builder.take_values();

@@ -1,6 +1,7 @@
 #include "case/chosen.hpp"
 #include "case/value_lists.hpp"
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace capsule {
 
@@ -40,12 +41,15 @@ bool Chosen::stands(const std::string &name, const std::string &over) const {
 void Chosen::complain(const std::vector<std::string> &names, const std::string &message,
                       const std::string &hint) const {
   TextPlace place;
+  std::string whose;
   for (const std::string &name : names)
     if (const auto *value = given(name)) {
       place = value->place;
+      if (of_one && entries_of(value->value).size() > 1)
+        whose = fmt::format("capsule {}: ", capsule + 1);
       break;
     }
-  reader.complain(place, message, hint);
+  reader.complain(place, whose + message, hint);
 }
 
 } // namespace capsule
