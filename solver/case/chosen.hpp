@@ -16,8 +16,7 @@ struct Chosen {
   CaseReader &reader;
   const Selection &selection;
   std::size_t capsule = 0; // whose values are meant, 0: the leading one's
-  bool of_one =
-      false; // what is complained of is this capsule's; where it stands in a list, the number is said
+  bool of_one = false;     // complaints are this capsule's: where it stands in a list, they say its number
 
   // What an assignment gives this capsule.
   Value value(std::size_t assignment) const;
