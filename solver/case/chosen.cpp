@@ -1,4 +1,5 @@
 #include "case/chosen.hpp"
+#include "case/keys.hpp"
 #include "case/value_lists.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -45,7 +46,8 @@ void Chosen::complain(const std::vector<std::string> &names, const std::string &
   for (const std::string &name : names)
     if (const auto *value = given(name)) {
       place = value->place;
-      if (of_one && entries_of(value->value).size() > 1)
+      const Key *key = find_key(name);
+      if (of_one && key && key->of_each_capsule && entries_of(value->value).size() > 1)
         whose = fmt::format("capsule {}: ", capsule + 1);
       break;
     }

@@ -609,7 +609,7 @@ BOOST_AUTO_TEST_CASE(geometry_that_cannot_be) {
   check_contains(message({"until.x_g=14.1"}),
                  "--set:1:11: error: at until.x_g = 14.1 the capsule would cross");
   check_contains(message({"output.profiles_at_x_g=[1, 12]"}),
-                 "--set:1:24: error: capsule 1: the capsule never comes to x_g = 12");
+                 "--set:1:24: error: the capsule never comes to x_g = 12");
   check_contains(message({"until.time=3", "output.profiles_at_time=[2,4]"}), "time 4 comes after the end");
   check_contains(message({"pore.shape=none"}), "--set:1:12: error: a pore flow needs a pore");
   check_contains(message({"time.step=1e-3"}),
