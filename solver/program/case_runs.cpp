@@ -118,6 +118,8 @@ std::string report(const RunResult &result, const std::string &name, RunEnd end)
     add(label, quantity);
   for (const double fold : summary.folds)
     text += fmt::format("  fold at {:.6g}", fold);
+  if (!summary.along.empty() && summary.folds.empty() && summary.failure.empty())
+    text += "  no fold on the way";
   add("CPU seconds", "cpu_seconds", 3);
   return text +
          fmt::format("{}  -> {}", end == found ? " (computed before)" : "", result.directory.string()) +
