@@ -158,8 +158,8 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
   constexpr double weakest_part = 0.125;
   // Parts of the flow, in which the capsule may come to rest. Where its law softens before, a branch from a much weaker flow
   // tells where: coarse meshes have states beyond that place, from which no finer mesh goes on.
-  for (double part = 1; part >= weakest_part;
-       part = last->kind == failure_kind::softening && part > weakest_part ? weakest_part : part / 2) {
+  double part = 1;
+  while (part >= weakest_part) {
     Case weaker = input;
     weaker.flow.capillary_number *= part;
     for (const char *key : area_keys)
@@ -189,6 +189,7 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
       if (auto state = by_march(input, control, march, attempts))
         return *state;
     }
+    part = last->kind == failure_kind::softening && part > weakest_part ? weakest_part : part / 2;
   }
   if (input.capsule.shape != CapsuleShape::spheroid) // a small stiff sphere does not become one
     throw of_this_way(*last);
