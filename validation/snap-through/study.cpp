@@ -89,7 +89,9 @@ FoldOfBranch fold_of_branch(const Case &physics, const KeyPath &flow, int number
 
 // A row per point of the fold that is followed along a second key, through the cusp and back if there is one.
 std::string fold_rows(const Family &family, const Direction &direction) {
-  const auto &[number, key, to] = direction;
+  const int number = direction.fold;
+  const char *key = direction.key;
+  const double to = direction.to;
   const Case physics = case_of(family);
   const KeyPath flow(flow_key, physics, strong), second(key, physics, to);
   std::string rows;
