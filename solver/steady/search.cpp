@@ -104,16 +104,18 @@ NumericsFailure of_this_way(const NumericsFailure &end) {
 // What a search has tried and seen, for its last word.
 struct Attempts {
   std::vector<std::string> seen;
-  std::string kind =
-      failure_kind::unresolved; // what the capsule's own motion ended with, if it did not arrive
+  std::string kind = failure_kind::unresolved; // of the last word: what the membrane was seen to do
+  bool has_asked_stiff_membrane = false;
 
   void add(const std::string &attempt, const NumericsFailure &failure) {
     seen.push_back(fmt::format("{}: {}", attempt, failure.what()));
   }
 };
 
-// A stiff membrane whose law softens proves nothing, but it tells.
+// Once in a search. A stiff membrane whose law softens proves nothing, but it tells.
 std::optional<SteadyState> by_stiff_membrane(const Case &input, const Control &control, Attempts &attempts) {
+  if (std::exchange(attempts.has_asked_stiff_membrane, true))
+    return {};
   try {
     return by_stiff_membrane(input, control);
   } catch (const NumericsFailure &failure) {
@@ -153,7 +155,7 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
                      Attempts &attempts) {
   const double flow = input.flow.capillary_number;
   std::optional<NumericsFailure> last;
-  bool has_run_away = false, has_marched = false;
+  bool has_marched = false;
   const bool fits = extent(input.capsule).half_width <= widest_unsqueezed;
   constexpr double weakest_part = 0.125;
   // Parts of the flow, in which the capsule may come to rest. Where its law softens before, a branch from a much weaker flow
@@ -181,9 +183,8 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
         attempts.kind = failure.kind;
     }
     if (last->kind == failure_kind::unbounded) {
-      if (!std::exchange(has_run_away, true))
-        if (auto state = by_stiff_membrane(input, control, attempts))
-          return *state;
+      if (auto state = by_stiff_membrane(input, control, attempts))
+        return *state;
     } else if (march && !has_marched && (part < 1 || last->kind != failure_kind::softening)) {
       has_marched = true;
       if (auto state = by_march(input, control, march, attempts))
