@@ -10,7 +10,6 @@ namespace capsule {
 namespace {
 
 constexpr double largest_volume_change = 1e-2;
-constexpr int dents_of_wrinkles = 3;
 
 constexpr std::array table{
     // The equations see the nodes only. Where a thin film is gone between them, steps get ever shorter.

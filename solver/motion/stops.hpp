@@ -11,6 +11,8 @@
 
 namespace capsule {
 
+// So many dents are wrinkles.
+inline constexpr int dents_of_wrinkles = 3;
 // Roughness (quantities.cpp) beyond which dents are wrinkles that the mesh does not resolve.
 constexpr double wrinkle_roughness = 0.4;
 // The same on nodes that were chosen from the accuracy: there wrinkles have to be resolved to it.

@@ -11,6 +11,7 @@
 #include "case/physical.hpp"
 #include "case/value_lists.hpp"
 #include "compare/text_table.hpp"
+#include "motion/stops.hpp"
 #include "motion/to_rest.hpp"
 #include "output/tables.hpp"
 #include "program/fit_profiles.hpp"
@@ -268,7 +269,6 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
 }
 
 std::string wrinkle_remark(const std::vector<RunResult> &results) {
-  constexpr double wrinkled = 3; // dents
   std::size_t runs = 0;
   double most = 0, from = std::numeric_limits<double>::infinity(), to = -from;
   for (const RunResult &result : results) {
@@ -278,7 +278,7 @@ std::string wrinkle_remark(const std::vector<RunResult> &results) {
     const std::vector<double> &dents = series["dents"], &x_g = series["x_g"];
     bool has_wrinkled = false;
     for (std::size_t row = 0; row < std::min(dents.size(), x_g.size()); ++row)
-      if (dents[row] >= wrinkled) {
+      if (dents[row] >= dents_of_wrinkles) {
         has_wrinkled = true;
         most = std::max(most, dents[row]);
         from = std::min(from, x_g[row]);
