@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 namespace capsule {
 namespace {
@@ -132,6 +133,18 @@ History history_of(const std::vector<SeriesRow> &series) {
     history["volume_change"].push_back(row.volume_change);
   }
   return history;
+}
+
+Rows::Rows(const std::string &header, const std::string &text) {
+  for (const std::string &name : split_csv(header))
+    columns_.emplace(name, columns_.size());
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    rows_.push_back(split_csv(line));
+}
+
+const std::string &Rows::text(std::size_t row, const std::string &column) const {
+  return rows_.at(row).at(columns_.at(column));
 }
 
 StudyRun read_run(const std::filesystem::path &directory) {

@@ -48,6 +48,22 @@ struct TextTask {
 std::vector<std::string> make_all(const std::string &directory, unsigned jobs,
                                   const std::vector<TextTask> &tasks);
 
+// Rows of comma-separated fields, as tasks make them, one a line, read by the names of their columns. A row may have fewer
+// fields than there are names.
+class Rows {
+public:
+  Rows(const std::string &header, const std::string &text);
+  std::size_t size() const { return rows_.size(); }
+  // Throws std::out_of_range if there is no such row or column, or if the row ends before it.
+  const std::string &text(std::size_t row, const std::string &column) const;
+  // Throws std::invalid_argument, too, if no number is there.
+  double value(std::size_t row, const std::string &column) const { return std::stod(text(row, column)); }
+
+private:
+  std::map<std::string, std::size_t> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
 // Reads a run's directory.
 StudyRun read_run(const std::filesystem::path &directory);
 

@@ -1,7 +1,7 @@
 // Capsules that are in no other file: are their steady states found, what is said where they are not, and does a march end
 // in the same state?
 #include "study.hpp"
-#include "base/csv.hpp"
+#include "base/atomic_file.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
 #include "motion/motion.hpp"
@@ -87,30 +87,26 @@ bool study(const std::string &directory, unsigned jobs) {
   const std::string header =
       "number,law,dilatation,R_eq,aspect_ratio,capillary_number,bending_ratio,verdict,v_g,pressure_drop,"
       "growth_rate,nodes,seconds,march,v_g_apart,pressure_drop_apart";
-  const std::vector<std::string> names = split_csv(header);
-  Table table(header);
+  std::string text;
+  for (const std::string &row : make_all(directory, jobs, tasks))
+    text += row + "\n";
+  write_atomically(directory + "/verdicts.csv", header + "\n" + text);
   std::map<std::string, int> verdicts;
   std::vector<double> seconds;
   int unstable = 0, compared = 0, apart = 0;
   double worst = 0;
-  for (const std::string &line : make_all(directory, jobs, tasks)) {
-    table.add(line);
-    const std::vector<std::string> fields = split_csv(line);
-    const auto text = [&](const char *name) {
-      return fields.at(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
-    };
-    const auto value = [&](const char *name) { return std::stod(text(name)); };
-    ++verdicts[text("verdict")];
-    seconds.push_back(value("seconds"));
-    unstable += text("verdict") == "steady" && value("growth_rate") > 0 ? 1 : 0;
-    if (text("march") != "reached")
+  const Rows rows(header, text);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    ++verdicts[rows.text(k, "verdict")];
+    seconds.push_back(rows.value(k, "seconds"));
+    unstable += rows.text(k, "verdict") == "steady" && rows.value(k, "growth_rate") > 0 ? 1 : 0;
+    if (rows.text(k, "march") != "reached")
       continue;
-    const double distance = std::max(value("v_g_apart"), value("pressure_drop_apart"));
+    const double distance = std::max(rows.value(k, "v_g_apart"), rows.value(k, "pressure_drop_apart"));
     ++compared;
     worst = std::max(worst, distance);
     apart += distance > allowed_apart ? 1 : 0;
   }
-  table.write(directory + "/verdicts.csv");
   for (const auto &[verdict, count] : verdicts)
     fmt::print("{}: {}\n", verdict, count);
   std::ranges::sort(seconds);

@@ -2,7 +2,6 @@
 // the size and the stiffness; and whether marches do so.
 #include "study.hpp"
 #include "base/atomic_file.hpp"
-#include "base/csv.hpp"
 #include "base/failure.hpp"
 #include "case/keys.hpp"
 #include "law/neo_hookean.hpp"
@@ -17,7 +16,6 @@
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 using namespace capsule;
@@ -168,25 +166,6 @@ std::string march_rows() {
   entering.pore.exit_x = 28;
   return rows + march_row("entering", entering, march_once(entering, {}, {}, Role::main));
 }
-
-// The columns of rows that tasks have made.
-class Rows {
-public:
-  Rows(const std::string &header, const std::string &text) : names_(split_csv(header)) {
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);)
-      rows_.push_back(split_csv(line));
-  }
-  std::size_t size() const { return rows_.size(); }
-  const std::string &text(std::size_t row, const char *name) const {
-    return rows_.at(row).at(static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin()));
-  }
-  double value(std::size_t row, const char *name) const { return std::stod(text(row, name)); }
-
-private:
-  std::vector<std::string> names_;
-  std::vector<std::vector<std::string>> rows_;
-};
 
 const std::string branch_header = "law,kind,capillary_number,v_g,pressure_drop,dents,growth_rate";
 const std::string fold_header = "law,fold,key,towards,value,capillary_number,pressure_drop,dents";

@@ -1,6 +1,5 @@
 // Spheres in an unbounded uniaxial extension: deformation against capillary number for both laws, its slope from the
 // theory of small deformations, and where steady states end.
-#include "base/csv.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
 #include "steady/branch.hpp"
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <sstream>
 
 using namespace capsule;
 
@@ -129,46 +127,52 @@ bool study(const std::string &directory, unsigned jobs) {
   const std::vector<std::string> texts = make_all(directory, jobs, tasks);
   auto text = texts.begin();
 
-  std::string branches = "sphere,capillary_number,deformation,length,max_stretch,growth_rate,end\n";
+  const std::string branch_header = "sphere,capillary_number,deformation,length,max_stretch,growth_rate,end";
+  std::string branches = branch_header + "\n";
   bool skalak_goes_on = true;
   double skalak_growth = -HUGE_VAL;
   for (const Sphere &sphere : spheres) {
-    std::istringstream rows(*text);
+    const Rows branch(branch_header, *text);
     branches += *text++;
-    for (std::string row; std::getline(rows, row);) {
-      const std::vector<std::string> cells = split_csv(row);
-      const std::string end = cells.size() > 6 ? cells[6] : "";
+    for (std::size_t k = 0; k < branch.size(); ++k) {
+      const std::string &end = branch.text(k, "end");
       if (!end.empty())
-        fmt::print("{}: {} at Ca = {}, D = {}, stretch {}\n", sphere.name(), end, cells[1], cells[2],
-                   cells[4]);
+        fmt::print("{}: {} at Ca = {}, D = {}, stretch {}\n", sphere.name(), end,
+                   branch.text(k, "capillary_number"), branch.text(k, "deformation"),
+                   branch.text(k, "max_stretch"));
       if (sphere.law.is(skalak)) {
         skalak_goes_on = skalak_goes_on && (end.empty() || end == "reached");
-        skalak_growth = std::max(skalak_growth, std::stod(cells[5]));
+        skalak_growth = std::max(skalak_growth, branch.value(k, "growth_rate"));
       }
     }
   }
   write_atomically(directory + "/branches.csv", branches);
 
-  Table folds("bending_ratio,capillary_number,coarse,growth_rate,coarse_growth_rate,deformation,max_stretch");
+  const std::string fold_header =
+      "bending_ratio,capillary_number,coarse,growth_rate,coarse_growth_rate,deformation,max_stretch";
+  Table folds(fold_header);
   double apart = 0, growth = 0;
   for (int k = 0; k < 2; ++k) {
     folds.add(*text);
-    const std::vector<std::string> cells = split_csv(*text++);
-    apart = std::max(apart, std::abs(std::stod(cells[1]) - std::stod(cells[2])));
-    growth = std::max({growth, std::abs(std::stod(cells[3])), std::abs(std::stod(cells[4]))});
+    const Rows fold(fold_header, *text++);
+    apart = std::max(apart, std::abs(fold.value(0, "capillary_number") - fold.value(0, "coarse")));
+    growth = std::max(
+        {growth, std::abs(fold.value(0, "growth_rate")), std::abs(fold.value(0, "coarse_growth_rate"))});
     fmt::print("neo-hookean, delta = {}: no steady state beyond Ca = {}, D = {}, stretch {} there\n",
-               cells[0], cells[1], cells[5], cells[6]);
+               fold.text(0, "bending_ratio"), fold.text(0, "capillary_number"), fold.text(0, "deformation"),
+               fold.text(0, "max_stretch"));
   }
   folds.write(directory + "/folds.csv");
 
-  Table slopes("sphere,bending_ratio,slope,theory,thin");
+  const std::string slope_header = "sphere,bending_ratio,slope,theory,thin";
+  Table slopes(slope_header);
   double slope_error = 0;
   for (const Sphere &sphere : spheres) {
     slopes.add(*text);
-    const std::vector<std::string> cells = split_csv(*text++);
-    slope_error = std::max(slope_error, std::abs(std::stod(cells[2]) / std::stod(cells[3]) - 1));
-    fmt::print("{}: D/Ca = {}, theory {} ({} without bending)\n", sphere.name(), cells[2], cells[3],
-               cells[4]);
+    const Rows slope(slope_header, *text++);
+    slope_error = std::max(slope_error, std::abs(slope.value(0, "slope") / slope.value(0, "theory") - 1));
+    fmt::print("{}: D/Ca = {}, theory {} ({} without bending)\n", sphere.name(), slope.text(0, "slope"),
+               slope.text(0, "theory"), slope.text(0, "thin"));
   }
   slopes.write(directory + "/slopes.csv");
 

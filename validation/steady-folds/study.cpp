@@ -1,6 +1,5 @@
 // Up to which capillary number does a steady state exist? Folds of neo-Hookean capsules against size, shape and bending
 // stiffness on two meshes; the same search for Skalak's law.
-#include "base/csv.hpp"
 #include "base/failure.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
@@ -96,30 +95,37 @@ bool study(const std::string &directory, unsigned jobs) {
                        [=] { return skalak_branch(dilatation, radius); }});
   const std::vector<std::string> rows = make_all(directory, jobs, tasks);
 
-  Table folds(
+  const std::string fold_header =
       "capsule,aspect_ratio,bending_ratio,radius,capillary_number,coarse,growth_rate,coarse_growth_rate,"
-      "max_stretch,min_film,pressure_drop");
+      "max_stretch,min_film,pressure_drop";
+  Table folds(fold_header);
   double apart = 0, growth = 0;
   for (std::size_t k = 0; k < folds_to_find; ++k) {
     folds.add(rows[k]);
-    const std::vector<std::string> cells = split_csv(rows[k]);
-    apart = std::max(apart, std::abs(std::stod(cells[4]) - std::stod(cells[5])));
-    growth = std::max({growth, std::abs(std::stod(cells[6])), std::abs(std::stod(cells[7]))});
-    fmt::print("NH {:12} R = {:4}: no steady state beyond eps = {}, stretch {} there\n", cells[0], cells[3],
-               cells[4], cells[8]);
+    const Rows fold(fold_header, rows[k]);
+    apart = std::max(apart, std::abs(fold.value(0, "capillary_number") - fold.value(0, "coarse")));
+    growth = std::max(
+        {growth, std::abs(fold.value(0, "growth_rate")), std::abs(fold.value(0, "coarse_growth_rate"))});
+    fmt::print("NH {:12} R = {:4}: no steady state beyond eps = {}, stretch {} there\n",
+               fold.text(0, "capsule"), fold.text(0, "radius"), fold.text(0, "capillary_number"),
+               fold.text(0, "max_stretch"));
   }
   folds.write(directory + "/folds.csv");
-  Table ends("dilatation,radius,bending_ratio,end,capillary_number,nodes,growth_rate,max_stretch,min_film");
+  const std::string end_header =
+      "dilatation,radius,bending_ratio,end,capillary_number,nodes,growth_rate,max_stretch,min_film";
+  Table ends(end_header);
   bool none = true, bounded = true;
   for (std::size_t k = folds_to_find; k < rows.size(); ++k) {
     ends.add(rows[k]);
-    const std::vector<std::string> cells = split_csv(rows[k]);
-    if (std::stod(cells[0]) == 10) // C
-      none = none && cells[3] == "end of the path" && std::stod(cells[6]) < 0;
-    bounded = bounded && std::stod(cells[7]) < 2;
-    fmt::print("SK C = {:2} R = {:4}: {} at eps = {}, stretch {}, growth rate {}\n", cells[0], cells[1],
-               cells[3] == "mesh" ? "no fold; a finer mesh is needed" : cells[3], cells[4], cells[7],
-               cells[6]);
+    const Rows branch(end_header, rows[k]);
+    const std::string &end = branch.text(0, "end");
+    if (branch.value(0, "dilatation") == 10)
+      none = none && end == "end of the path" && branch.value(0, "growth_rate") < 0;
+    bounded = bounded && branch.value(0, "max_stretch") < 2;
+    fmt::print("SK C = {:2} R = {:4}: {} at eps = {}, stretch {}, growth rate {}\n",
+               branch.text(0, "dilatation"), branch.text(0, "radius"),
+               end == "mesh" ? "no fold; a finer mesh is needed" : end, branch.text(0, "capillary_number"),
+               branch.text(0, "max_stretch"), branch.text(0, "growth_rate"));
   }
   ends.write(directory + "/skalak.csv");
   const bool agree = apart <= allowed;

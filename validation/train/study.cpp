@@ -1,7 +1,6 @@
 // How close must the capsules of a train come until they feel each other? Speed, pressure drop and apparent viscosity of
 // steady trains against the distance of neighbours, on two meshes, for both laws and for rigid spheres.
 #include "study.hpp"
-#include "base/csv.hpp"
 #include "base/failure.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
@@ -110,8 +109,10 @@ bool study(const std::string &directory, unsigned jobs) {
   for (const Train &train : trains)
     tasks.push_back({fmt::format("{} {} {}", train.law, train.radius, train.capillary_number),
                      [=] { return rows_of(train); }});
-  Table table("law,radius,capillary_number,period,min_gap,v_g,pressure_drop,coarse_v_g,coarse_pressure_drop,"
-              "apparent_viscosity,growth_rate,pairing_growth_rate");
+  const std::string header =
+      "law,radius,capillary_number,period,min_gap,v_g,pressure_drop,coarse_v_g,coarse_pressure_drop,"
+      "apparent_viscosity,growth_rate,pairing_growth_rate";
+  Table table(header);
   Table reaches("law,radius,capillary_number,one_percent,one_per_mille,closest");
   double apart = 0, from_known = 0;
   std::size_t found = 0, k = 0;
@@ -122,16 +123,14 @@ bool study(const std::string &directory, unsigned jobs) {
     table.add(text);
     double alone = 0, gap_before = 0, change_before = 0, closest = 0;
     std::array<double, 2> reach{};
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      const std::vector<std::string> cells = split_csv(text.substr(begin, end - begin));
-      begin = end + 1;
-      const double period = std::stod(cells[3]), gap = std::stod(cells[4]), speed = std::stod(cells[5]),
-                   drop = std::stod(cells[6]);
-      apart = std::max(
-          {apart, std::abs(std::stod(cells[7]) / speed - 1), std::abs(std::stod(cells[8]) / drop - 1)});
-      stable = stable && std::stod(cells[10]) < 0;
-      returns = returns && (gap > 1.6 || std::stod(cells[11]) < 0);
+    const Rows rows(header, text);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const double period = rows.value(r, "period"), gap = rows.value(r, "min_gap"),
+                   speed = rows.value(r, "v_g"), drop = rows.value(r, "pressure_drop");
+      apart = std::max({apart, std::abs(rows.value(r, "coarse_v_g") / speed - 1),
+                        std::abs(rows.value(r, "coarse_pressure_drop") / drop - 1)});
+      stable = stable && rows.value(r, "growth_rate") < 0;
+      returns = returns && (gap > 1.6 || rows.value(r, "pairing_growth_rate") < 0);
       if (alone == 0)
         alone = drop;
       const double change = std::abs(drop / alone - 1);
