@@ -88,7 +88,7 @@ std::string trimmed(const std::string &text) {
 
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
   std::string best;
-  std::size_t smallest = std::max<std::size_t>(1, word.size() / 3) + 1;
+  std::size_t smallest = word.size() < 2 ? 1 : std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string &candidate : candidates) {
     if (word.size() >= candidate.size() + smallest)
       continue;

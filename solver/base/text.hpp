@@ -27,8 +27,8 @@ std::string counted(std::size_t number, std::string_view what);
 std::string trimmed(const std::string &text);
 
 // The candidate that a mistyped word most likely means; empty if none is near. Counts inserted, deleted, replaced and
-// swapped letters; near is at most a third of the word's letters. A candidate that the word begins counts as one letter
-// off.
+// swapped letters; near is at most a third of the word's letters, or one of two letters. A single letter means itself only.
+// A candidate that the word begins counts as one letter off.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
 // UTF-8 as characters and back. Bytes that are not UTF-8 become U+FFFD, one for each broken sequence.

@@ -41,7 +41,8 @@ constexpr const char *expectations =
     "id,run,quantity,expected,allowed,reason\n"
     "volume,,max(abs(volume_change@x_g=-100..1000)),<1e-4,,the liquid inside is incompressible\n"
     "film,,min(min_film@x_g=-100..1000),>0,,the membrane does not touch the wall\n"
-    "# pressure,radius=0.9,pressure_drop,7.74,1 %,where the value is from\n";
+    "# pressure,radius=0.9,pressure_drop,7.74,1 %,where the value is from\n"
+    "# pascals,,pressure_drop [Pa],390,1 %,of a case in physical units\n";
 
 std::string readme(const std::string &id) {
   return fmt::format("# {}\n\n**Question.** ...\n\n**Answer.** ...\n\n**Check.** What else says "

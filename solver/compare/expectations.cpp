@@ -98,9 +98,11 @@ std::string read_verdict(Expectation &row) {
 void check_expressions(const Expectation &row) {
   const Selector selector(row.run);
   for (const Expression &expression : expressions_of(row))
-    for (const Reference &reference : expression.references())
+    for (const Reference &reference : expression.references()) {
+      check_units(reference);
       if (reference.runs)
         const Selector other(runs_of(reference));
+    }
 }
 
 // Completes a row from its columns. Returns the first mistake in it, or nothing.

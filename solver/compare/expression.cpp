@@ -238,14 +238,9 @@ private:
       return call(name, std::move(arguments));
     }
     Node node;
-    node.reference = Reference{name, std::nullopt, {}};
-    if (take('{')) {
-      const std::size_t end = text_.find('}', at_);
-      if (end == std::string_view::npos)
-        fail("'}' is missing");
-      node.reference->runs = std::string(text_.substr(at_, end - at_));
-      at_ = end + 1;
-    }
+    node.reference = Reference{name, unit(), std::nullopt, {}};
+    if (take('{'))
+      node.reference->runs = up_to('}');
     while (take('@'))
       node.reference->places.push_back(place());
     return node;
@@ -254,6 +249,7 @@ private:
   Place place() {
     Place place;
     place.column = word();
+    place.unit = unit();
     demand('=');
     place.from = place.to = signed_number();
     if (text_.substr(at_).starts_with("..")) {
@@ -263,6 +259,25 @@ private:
         fail("the second end is not beyond the first");
     }
     return place;
+  }
+
+  // What stands before a closing bracket.
+  std::string up_to(char bracket) {
+    const std::size_t end = text_.find(bracket, at_);
+    if (end == std::string_view::npos)
+      fail(fmt::format("'{}' is missing", bracket));
+    const std::string inside(text_.substr(at_, end - at_));
+    at_ = end + 1;
+    return inside;
+  }
+
+  std::string unit() {
+    if (!take('['))
+      return "";
+    const std::string unit = trimmed(up_to(']'));
+    if (unit.empty())
+      fail("a unit is missing");
+    return unit;
   }
 
   std::string word() {

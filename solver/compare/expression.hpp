@@ -11,6 +11,7 @@
 //   name@column=a            where a column passes a for the first time; linear between the rows
 //   name@column=a..b         all values from a to b, ends included
 //   name@x_g=1@S=0           in the profile at x_g = 1, where S = 0
+//   name [unit]              in a unit, as in name#2 [Pa]{runs}@x_g [um]=-5..5
 // Every value is a list, most often of one number. An operation takes lists of equal length, or one number and a list.
 // The caller says what a name means (run_values.hpp).
 #include <functional>
@@ -24,11 +25,13 @@ namespace capsule {
 
 struct Place {
   std::string column;
+  std::string unit; // empty: none
   double from = 0;
   double to = 0; // equal to `from`: one place
 };
 struct Reference {
   std::string name;
+  std::string unit;                // empty: none
   std::optional<std::string> runs; // what stands between the braces
   std::vector<Place> places;
 };

@@ -3,7 +3,9 @@
 #include "base/text.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
+#include "case/physical.hpp"
 #include "case/value_lists.hpp"
+#include "observe/unit_of.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -58,11 +60,80 @@ std::optional<double> key_value(const std::string &name, const Case &physics) {
   return key != nullptr ? number(*key, physics) : std::nullopt;
 }
 
+// Nothing has this name; or what has it is no number.
+NoValue no_value(const std::string &name, const std::vector<std::string> &known) {
+  if (std::ranges::find(known, name) != known.end())
+    return NoValue("no value");
+  const std::string near = nearest_word(name, known);
+  return NoValue(
+      fmt::format("no value '{}'{}", name, near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+std::vector<std::string> names_of(const Columns &columns) {
+  std::vector<std::string> names;
+  for (const auto &[name, values] : columns)
+    names.push_back(name);
+  return names;
+}
+
 const Values &column(const Columns &columns, const std::string &name) {
   const auto found = columns.find(name);
   if (found == columns.end())
-    throw NoValue("no value");
+    throw no_value(name, names_of(columns));
   return found->second;
+}
+
+constexpr std::string_view of_errors = "error_estimate.";
+
+// A name without the number of a capsule and without what says that its error is meant.
+std::string quantity_of(const std::string &name) {
+  const std::string quantity = name.substr(0, name.find('#'));
+  return quantity.starts_with(of_errors) ? quantity.substr(of_errors.size()) : quantity;
+}
+
+// What a unit is in SI units. Throws InputError as check_units.
+double read_unit(const std::string &name, const std::string &unit, const Dimension &wanted) {
+  const std::string one = "1 ";
+  const auto read = read_quantity(one + unit, wanted);
+  if (const auto *quantity = std::get_if<Quantity>(&read))
+    return quantity->si;
+  const auto &[why, meant] = std::get<NoQuantity>(read);
+  throw InputError(
+      fmt::format("{} [{}]: {}{}", name, unit, why,
+                  meant.empty() ? "" : fmt::format(", did you mean '[{}]'?", meant.substr(one.size()))));
+}
+
+const Measured *measured_key(const std::string &name) {
+  const Key *key = key_named(name);
+  return key != nullptr ? std::get_if<Measured>(&key->field) : nullptr;
+}
+
+void check_unit(const std::string &name, const std::string &unit) {
+  if (unit.empty())
+    return;
+  const auto physical = unit_of(quantity_of(name));
+  const Measured *measured = measured_key(name);
+  if (!physical && measured == nullptr)
+    throw InputError(fmt::format("'{}' has no unit", name));
+  read_unit(name, unit, physical ? physical->dimension : measured->dimension);
+}
+
+// By what the number that stands under a name is multiplied to be in this unit.
+double in_unit(const RunResult &run, const std::string &name, const std::string &unit) {
+  if (unit.empty())
+    return 1;
+  const auto physical = unit_of(quantity_of(name));
+  if (!physical)
+    return 1 / read_unit(name, unit, measured_key(name)->dimension);
+  const std::size_t mark = name.find('#');
+  const Case &physics = *capsules_of(run.input.physics)
+                             .at(mark == std::string::npos ? 0 : std::stoul(name.substr(mark + 1)) - 1);
+  if (!has_physical(physics) || !run.summary->along.empty())
+    throw NoValue(has_physical(physics) ? "no units along a branch" : "not in physical units");
+  const Scales scales = physical_scales(physics);
+  if (!has_scale(physical, scales))
+    throw NoValue("no resistivity");
+  return scales.*physical->scale / read_unit(name, unit, physical->dimension);
 }
 
 // y where x passes a value for the first time; linear between the rows.
@@ -115,7 +186,9 @@ std::optional<double> estimated_error(const RunResult &run, const std::string &n
                                       const Reference &reference) {
   const std::string place = reference.places.empty() ? "" : '@' + reference.places[0].column;
   const auto found = run.summary->error_estimate.find(name + place);
-  return found == run.summary->error_estimate.end() ? std::nullopt : std::optional(found->second);
+  if (found == run.summary->error_estimate.end())
+    return std::nullopt;
+  return found->second * in_unit(run, name, reference.unit);
 }
 
 Values profile_values(const Columns &profiles, const Reference &reference) {
@@ -150,6 +223,12 @@ bool Selector::selects(const Case &physics) const {
     return std::ranges::any_of(wanted.second,
                                [&](const std::string &text) { return has_value(physics, key, text); });
   });
+}
+
+void check_units(const Reference &reference) {
+  check_unit(reference.name, reference.unit);
+  for (const Place &place : reference.places)
+    check_unit(place.column, place.unit);
 }
 
 std::optional<std::string> case_of(const Reference &reference) {
@@ -207,11 +286,40 @@ bool RunTable::has_column(const fs::path &file, const std::string &name) const {
   return fs::exists(file, ignored) && columns(file).contains(name);
 }
 
+std::vector<std::string> RunTable::names(const RunResult &run, const Reference &reference,
+                                         const Tables &tables) const {
+  std::vector<std::string> all;
+  for (const fs::path &file : {tables.series, tables.profiles})
+    if (std::error_code ignored; fs::exists(file, ignored))
+      std::ranges::move(names_of(columns(file)), std::back_inserter(all));
+  if (!reference.places.empty())
+    return all;
+  for (const auto &[name, value] : run.summary->quantities)
+    all.push_back(name);
+  for (const Key &key : keys())
+    for (const std::string_view name : {std::string_view(key.name), short_name(key)})
+      all.emplace_back(name);
+  return all;
+}
+
+Values RunTable::values_in(const RunResult &run, const Reference &reference) const {
+  Reference without_units{reference.name, {}, {}, {}};
+  for (const Place &place : reference.places) {
+    const double factor = in_unit(run, place.column, place.unit);
+    without_units.places.push_back({place.column, {}, place.from / factor, place.to / factor});
+  }
+  Values values = dimensionless(run, without_units);
+  const double factor = in_unit(run, reference.name, reference.unit);
+  for (double &value : values)
+    value *= factor;
+  return values;
+}
+
 // "x_g#2" is x_g of the second capsule, whose tables are series-2.csv and profiles-2.csv; of the leading one they have no
 // number.
-Values RunTable::values_in(const RunResult &run, const Reference &reference) const {
-  if (constexpr std::string_view prefix = "error_estimate."; reference.name.starts_with(prefix))
-    if (const auto error = estimated_error(run, reference.name.substr(prefix.size()), reference))
+Values RunTable::dimensionless(const RunResult &run, const Reference &reference) const {
+  if (reference.name.starts_with(of_errors))
+    if (const auto error = estimated_error(run, reference.name.substr(of_errors.size()), reference))
       return {*error};
   const std::size_t mark = reference.name.find('#');
   const std::string quantity = reference.name.substr(0, mark);
@@ -222,24 +330,25 @@ Values RunTable::values_in(const RunResult &run, const Reference &reference) con
   const auto table = [&](const char *name) {
     return run.directory / fmt::format("{}{}.csv", name, number.empty() ? "" : "-" + number);
   };
+  const Tables tables{table("series"), table("profiles")};
   if (reference.places.empty()) {
     const auto found = run.summary->quantities.find(reference.name);
     if (found != run.summary->quantities.end())
       return {found->second};
     if (const auto value = key_value(reference.name, run.input.physics))
       return {*value};
-  } else if (has_column(table("series"), quantity)) {
+  } else if (has_column(tables.series, quantity)) {
     if (reference.places.size() > 1)
       throw NoValue("no value");
-    const Columns &series = columns(table("series"));
+    const Columns &series = columns(tables.series);
     // Places are the leading capsule's, whose rows are of the same times.
     return values_at(column(series, quantity),
                      column(columns(run.directory / "series.csv"), reference.places[0].column),
                      reference.places[0]);
   }
-  if (!has_column(table("profiles"), quantity))
-    throw NoValue("no value");
-  return profile_values(columns(table("profiles")), {quantity, {}, reference.places});
+  if (!has_column(tables.profiles, quantity))
+    throw no_value(quantity, names(run, reference, tables));
+  return profile_values(columns(tables.profiles), {quantity, {}, {}, reference.places});
 }
 
 Values RunTable::values(const Reference &reference, const std::string &case_name,

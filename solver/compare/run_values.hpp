@@ -6,7 +6,10 @@
 //   a column of series.csv at a place      x_g@time=18.7, min_film@x_g=-4..4
 //   a column of profiles.csv               r, tension_meridional@x_g=1@S=0
 //     of the last profile, or of that at a time or x_g; all its points, or those at a place S
-// Throws FileError and, of a table that cannot be used, InputError; NoValue ("no such run", "no value") where there is nothing.
+// Each of these that has a unit, and each place, may stand in any unit of its kind, if the case is in physical units:
+// "pressure_drop [Pa]", "min_film [um]@x_g [um]=-20..20", "physical.viscosity [mPa.s]".
+// Throws FileError and, of a table that cannot be used, InputError; NoValue ("no such run", "no value", with the name that
+// was probably meant) where there is nothing.
 #include "base/csv.hpp"
 #include "compare/expression.hpp"
 #include "output/run_result.hpp"
@@ -43,16 +46,29 @@ public:
                                        const RunResult *run) const;
 
 private:
+  // series.csv and profiles.csv of a capsule.
+  struct Tables {
+    std::filesystem::path series, profiles;
+  };
+
+  Values values_in(const RunResult &run, const Reference &reference) const;
   std::vector<const RunResult *> selected(const Reference &reference, const std::string &case_name,
                                           const RunResult *run) const;
   const Columns &columns(const std::filesystem::path &file) const;
   // Whether there is such a file with such a column; a study leaves its summary only.
   bool has_column(const std::filesystem::path &file, const std::string &name) const;
-  Values values_in(const RunResult &run, const Reference &reference) const;
+  // Of a reference without units.
+  Values dimensionless(const RunResult &run, const Reference &reference) const;
+  // Names under which the run may have something; those of its end and input only where no place is asked for.
+  std::vector<std::string> names(const RunResult &run, const Reference &reference,
+                                 const Tables &tables) const;
 
   std::map<std::string, std::vector<RunResult>> runs_;
   mutable std::map<std::filesystem::path, Columns> files_; // read so far
 };
+
+// Throws InputError, with one line, if a name of the reference has no unit, or not this one.
+void check_units(const Reference &reference);
 
 // The two parts of what stands between a reference's braces, "another-case: radius=0.9": the case, if there is one, and
 // the selector.

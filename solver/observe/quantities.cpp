@@ -206,24 +206,24 @@ constexpr std::array of_the_way{
 };
 
 constexpr std::array of_a_profile{
-    ProfileQuantity{"S", &Profile::S},
-    ProfileQuantity{"x", &Profile::x},
-    ProfileQuantity{"r", &Profile::r},
+    ProfileQuantity{"S", &Profile::S, metre},
+    ProfileQuantity{"x", &Profile::x, metre},
+    ProfileQuantity{"r", &Profile::r, metre},
     ProfileQuantity{"stretch_meridional", &Profile::stretch_meridional},
     ProfileQuantity{"stretch_azimuthal", &Profile::stretch_azimuthal},
-    ProfileQuantity{"tension_meridional", &Profile::tension_meridional},
-    ProfileQuantity{"tension_azimuthal", &Profile::tension_azimuthal},
+    ProfileQuantity{"tension_meridional", &Profile::tension_meridional, newton_per_metre},
+    ProfileQuantity{"tension_azimuthal", &Profile::tension_azimuthal, newton_per_metre},
     ProfileQuantity{"moment_meridional", &Profile::moment_meridional},
     ProfileQuantity{"moment_azimuthal", &Profile::moment_azimuthal},
     ProfileQuantity{"curvature_meridional", &Profile::curvature_meridional},
     ProfileQuantity{"curvature_azimuthal", &Profile::curvature_azimuthal},
-    ProfileQuantity{"velocity_x", &Profile::velocity_x},
-    ProfileQuantity{"velocity_r", &Profile::velocity_r},
+    ProfileQuantity{"velocity_x", &Profile::velocity_x, metre_per_second},
+    ProfileQuantity{"velocity_r", &Profile::velocity_r, metre_per_second},
 };
 
 } // namespace
 
-std::string name_with_unit(const char *name, const PhysicalUnit &unit) {
+std::string name_with_unit(const std::string &name, const PhysicalUnit &unit) {
   return fmt::format("{} [{}]", name, unit_text(unit.dimension));
 }
 

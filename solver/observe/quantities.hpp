@@ -18,7 +18,7 @@ struct PhysicalUnit {
   Dimension dimension;
 };
 // "length [m]".
-std::string name_with_unit(const char *name, const PhysicalUnit &unit);
+std::string name_with_unit(const std::string &name, const PhysicalUnit &unit);
 
 // Whether a case knows it: a quantity without a unit, or one whose scale no key tells, is not in the tables of SI units.
 bool has_scale(const std::optional<PhysicalUnit> &unit, const Scales &scales);
@@ -77,6 +77,7 @@ std::span<const LargestQuantity> largest_quantities();
 struct ProfileQuantity {
   const char *name;
   Vector Profile::*values;
+  std::optional<PhysicalUnit> unit = {};
 };
 std::span<const ProfileQuantity> profile_quantities();
 

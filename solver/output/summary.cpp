@@ -7,6 +7,7 @@
 #include "observe/outcome.hpp"
 #include "observe/quantities.hpp"
 #include "observe/transit.hpp"
+#include "observe/unit_of.hpp"
 #include "output/checkpoint.hpp"
 #include "output/tables.hpp"
 #include "scene/resolution.hpp"
@@ -37,23 +38,16 @@ Json relative_pulse_height(const Json &summary) {
 // The values of a summary in SI units, by their name and unit.
 Json physical_json(const Case &physics, const Json &summary) {
   const Scales scales = physical_scales(physics);
-  const auto put = [&](Json &table, const Json &values, const char *name, const PhysicalUnit &unit) {
-    if (const auto value = values.find(name);
-        value != values.end() && value->is_number() && has_scale(unit, scales))
-      table[name_with_unit(name, unit)] = value->get<double>() * scales.*unit.scale;
+  const auto in_units = [&](const Json &values, const std::string &prefix) {
+    Json table = Json::object();
+    for (const auto &[name, value] : values.items())
+      if (const auto unit = unit_of(prefix + name); value.is_number() && has_scale(unit, scales))
+        table[name_with_unit(name, *unit)] = value.get<double>() * scales.*unit->scale;
+    return table;
   };
-  Json json = Json::object();
-  for (const ReportedQuantity &quantity : reported_quantities())
-    if (quantity.unit)
-      put(json, summary, quantity.name, *quantity.unit);
-  for (const PeakQuantity &quantity : peak_quantities())
-    put(json, summary, quantity.name, quantity.unit);
-  put(json, summary, "empty_resistance", {&Scales::resistance, dimension::resistance});
-  if (const auto transit = summary.find("transit"); transit != summary.end()) {
-    json["transit"] = Json::object();
-    for (const TransitQuantity &quantity : transit_quantities())
-      put(json["transit"], *transit, quantity.name, quantity.unit);
-  }
+  Json json = in_units(summary, "");
+  if (const auto transit = summary.find("transit"); transit != summary.end())
+    json["transit"] = in_units(*transit, "transit_");
   json[fmt::format("tension scale [{}]", unit_text(dimension::tension))] = scales.tension;
   return json;
 }

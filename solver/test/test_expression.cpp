@@ -98,6 +98,15 @@ BOOST_AUTO_TEST_CASE(references) {
   BOOST_TEST(!all[1].runs);
   BOOST_TEST(all[2].name == "d");
   BOOST_TEST(all[3].places.at(0).from == -4);
+  const Reference in_units = Expression("v#2 [ mm/s ]{k=1}@x_g [um]=1..2@S[m]=0").references().at(0);
+  BOOST_TEST(in_units.name == "v#2");
+  BOOST_TEST(in_units.unit == "mm/s");
+  BOOST_TEST(in_units.runs.value() == "k=1");
+  BOOST_TEST(in_units.places.at(0).column == "x_g");
+  BOOST_TEST(in_units.places.at(0).unit == "um");
+  BOOST_TEST(in_units.places.at(0).to == 2);
+  BOOST_TEST(in_units.places.at(1).unit == "m");
+  BOOST_TEST(all[0].unit == "");
 }
 
 BOOST_AUTO_TEST_CASE(mistakes) {
@@ -110,6 +119,9 @@ BOOST_AUTO_TEST_CASE(mistakes) {
   check_mistake("sin(1)", "unknown function 'sin' at character 7 of 'sin(1)'");
   check_mistake("abs(1, 2)", "wrong number of arguments of 'abs' at character 10 of 'abs(1, 2)'");
   check_mistake("a{k=1", "'}' is missing at character 3 of 'a{k=1'");
+  check_mistake("a [m", "']' is missing at character 4 of 'a [m'");
+  check_mistake("a [ ]", "a unit is missing at character 6 of 'a [ ]'");
+  check_mistake("max [m](a)", "unexpected '(' at character 8 of 'max [m](a)'");
   check_mistake("a@x_g", "'=' is missing at character 6 of 'a@x_g'");
   check_mistake("a@x_g=3..2", "the second end is not beyond the first at character 11 of 'a@x_g=3..2'");
   for (const char *text : {"a#1", "a#0", "a#", "a#99999999999999999999"})
