@@ -107,7 +107,10 @@ struct Builder {
         stand_in(*key);
     if (!has_physical(run.physics))
       return;
+    const auto is_given = [&](const std::string &name) { return chosen.given(name) != nullptr; };
     for (const PhysicalComplaint &why : physical_complaints(run.physics, task.fit)) {
+      if (!std::ranges::all_of(why.keys, is_given)) // one of them is a stand-in
+        continue;
       std::vector<std::string> places = why.keys;
       std::ranges::copy(physical_keys(), std::back_inserter(places));
       chosen.complain(places, why.message, "`capsule keys` tells what physical.* means");
@@ -124,7 +127,10 @@ struct Builder {
     const Key &key = *find_key(value.key);
     const std::optional<double> stated = number(key, run.physics);
     if (auto complaint = set_value(key, value.value, run.physics))
-      chosen.complain({value.from}, complaint->message, complaint->hint);
+      chosen.complain({value.from},
+                      fmt::format("{} makes {} = {:.4g}{}, which is out of range", value.from, value.key,
+                                  value.value, value.unit),
+                      complaint->hint);
     constexpr double rounding = 5e-4; // to four digits
     if (stated && chosen.given(value.key) && std::abs(*stated / value.value - 1) > rounding)
       chosen.complain({value.key},

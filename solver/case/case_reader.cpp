@@ -2,6 +2,7 @@
 #include "base/text.hpp"
 #include "case/case.hpp"
 #include "case/keys.hpp"
+#include "case/symbols.hpp"
 #include "case/toml_text.hpp"
 #include "case/value_lists.hpp"
 #include <algorithm>
@@ -73,23 +74,6 @@ Value to_value(const toml::node &node) {
 
 bool is_section(const std::string &name) {
   return std::ranges::any_of(keys(), [&](const Key &key) { return key.name.starts_with(name + "."); });
-}
-
-// The key that a wrong name most likely meant.
-std::string nearest_key(const std::string &name) {
-  std::vector<std::string> all, last, here;
-  for (const Key &key : keys()) {
-    all.push_back(key.name);
-    last.emplace_back(last_component(key.name));
-    if (section_of(key.name) == section_of(name))
-      here.emplace_back(last_component(key.name));
-  }
-  const std::string word(last_component(name));
-  if (const std::string near = nearest_word(word, here); !near.empty())
-    return section_of(name).empty() ? near : section_of(name) + "." + near;
-  if (const std::string near = nearest_word(word, last); !near.empty())
-    return all.at(static_cast<std::size_t>(std::ranges::find(last, near) - last.begin()));
-  return nearest_word(name, all);
 }
 
 void complain_unknown(CaseReader &reader, const TextPlace &place, const std::string &name, bool sweep) {

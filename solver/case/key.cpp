@@ -2,6 +2,7 @@
 #include "base/text.hpp"
 #include "case/case.hpp"
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,11 +32,22 @@ Complaint wrong_type(const Key &key, const std::string &wanted, const Value &val
   return {fmt::format("{} must be {}, not {}", key.name, wanted, described(value)), hint};
 }
 
+// Whether a text is a number with a word behind it, such as a unit: "6 mm".
+bool has_unit(const std::string &text) {
+  const std::size_t digits = std::min(text.find_first_not_of("+-.0123456789"), text.size());
+  const std::string word = trimmed(text.substr(digits));
+  const bool begins = !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) != 0;
+  return (begins || word.starts_with("\u00b5") || word.starts_with("\u03bc")) &&
+         to_number(text.substr(0, digits));
+}
+
 // For a text in a number's place.
 std::string number_hint(const Value &value) {
   const auto *text = std::get_if<std::string>(&value);
   const std::string meant = text != nullptr ? respelled_number(trimmed(*text)) : "";
-  return text == nullptr           ? ""
+  return text == nullptr ? ""
+         : meant.empty() && has_unit(trimmed(*text))
+             ? "write a number without a unit: lengths in tube radii; the keys of [physical] take units"
          : meant.empty()           ? number_notation
          : meant == trimmed(*text) ? fmt::format("a number stands without quotes: {}", meant)
                                    : "write " + meant;

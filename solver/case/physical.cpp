@@ -71,7 +71,7 @@ std::vector<PhysicalComplaint> physical_complaints(const Case &physics, bool of_
     if (a.si == 0 && b.si == 0)
       complaints.push_back({fmt::format("missing key '{}', or '{}'", key, instead), {}});
     else if (a.si > 0 && b.si > 0)
-      complaints.push_back({fmt::format("{} and {} exclude each other", key, instead), {instead}});
+      complaints.push_back({fmt::format("{} and {} exclude each other", key, instead), {instead, key}});
   };
   require(p.tube_radius, "physical.tube_radius");
   require(p.viscosity, "physical.viscosity");
@@ -104,16 +104,17 @@ std::vector<PhysicalComplaint> physical_complaints(const Case &physics, bool of_
 std::vector<Derived> derived_values(const Case &physics, bool of_a_fit) {
   const auto &p = physics.physical;
   const double radius = p.tube_radius.si, shear = shear_modulus(physics);
+  constexpr const char *tube_radii = " tube radii";
   std::vector<Derived> values;
   if (!of_a_fit)
     values.push_back({"flow.capillary_number",
                       p.viscosity.si * flow_rate(physics) / (pi * radius * radius * shear),
                       p.flow_rate.si > 0 ? "physical.flow_rate" : "physical.pressure"});
   if (p.pore_length.si > 0 && is_whole_pore(physics))
-    values.push_back(
-        {"pore.exit_x", p.pore_length.si / radius - tube_before_mouth(physics.pore), "physical.pore_length"});
+    values.push_back({"pore.exit_x", p.pore_length.si / radius - tube_before_mouth(physics.pore),
+                      "physical.pore_length", tube_radii});
   if (p.capsule_radius.si > 0)
-    values.push_back({"capsule.radius", p.capsule_radius.si / radius, "physical.capsule_radius"});
+    values.push_back({"capsule.radius", p.capsule_radius.si / radius, "physical.capsule_radius", tube_radii});
   if (p.bending_modulus.si > 0)
     values.push_back({"membrane.bending_ratio", p.bending_modulus.si / (shear * radius * radius),
                       "physical.bending_modulus"});

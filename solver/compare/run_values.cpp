@@ -4,6 +4,7 @@
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
 #include "case/physical.hpp"
+#include "case/symbols.hpp"
 #include "case/value_lists.hpp"
 #include "observe/unit_of.hpp"
 #include <algorithm>
@@ -201,6 +202,12 @@ Values profile_values(const Columns &profiles, const Reference &reference) {
                      : values;
 }
 
+std::string unknown_key(const std::string &name) {
+  const std::string near = nearest_key(name);
+  return fmt::format("unknown key '{}'{}", name,
+                     near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
+}
+
 } // namespace
 
 Selector::Selector(const std::string &text) {
@@ -212,7 +219,7 @@ Selector::Selector(const std::string &text) {
       throw InputError(fmt::format("the run '{}' is not of the form key=value", text));
     const std::string key = trimmed(part.substr(0, equals));
     if (key_named(key) == nullptr)
-      throw InputError(fmt::format("unknown key '{}'", key));
+      throw InputError(unknown_key(key));
     wanted_.emplace_back(key, split(part.substr(equals + 1), '|'));
   }
 }

@@ -1,7 +1,9 @@
 #include "program/list_keys.hpp"
 #include "case/keys.hpp"
+#include "case/symbols.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <string>
 
 namespace capsule {
@@ -19,6 +21,8 @@ ExitCode list_keys() {
                key.of_each_capsule ? "; a list for several capsules" : "");
     if (!key.scope.key.empty())
       fmt::print("{}only with {}\n", below, scope_text(key));
+    if (const std::vector<std::string> symbols = symbols_of(key); !symbols.empty())
+      fmt::print("{}symbol: {}\n", below, fmt::join(symbols, ", "));
     for (const std::string &note : key.notes)
       fmt::print("{}{}\n", below, note);
     section = here;

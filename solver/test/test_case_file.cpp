@@ -5,9 +5,11 @@
 #include "case/case_file.hpp"
 #include "case/identity.hpp"
 #include "case/keys.hpp"
+#include "case/symbols.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
 #include "temporary_directory.hpp"
+#include <array>
 #include <boost/test/unit_test.hpp>
 #include <cstring>
 #include <fmt/format.h>
@@ -418,6 +420,51 @@ BOOST_AUTO_TEST_CASE(out_of_range) {
   const TemporaryDirectory directory;
   check_contains(message_of(directory.write("a.toml", "accuracy = 1\n" + sphere)),
                  "allowed: 1e-8 <= value <= 0.01");
+}
+
+BOOST_AUTO_TEST_CASE(symbols_of_the_field) {
+  const TemporaryDirectory directory;
+  for (const auto &[typed, meant] : {std::array{"membrane.C", "membrane.dilatation"},
+                                     {"C", "membrane.dilatation"},
+                                     {"c", "membrane.dilatation"},
+                                     {"flow.C", "membrane.dilatation"},
+                                     {"flow.Ca", "flow.capillary_number"},
+                                     {"eps", "flow.capillary_number"},
+                                     {"membrane.lambda", "flow.viscosity_ratio"},
+                                     {"delta", "membrane.bending_ratio"},
+                                     {"Req", "capsule.radius"},
+                                     {"flow.Q", "physical.flow_rate"},
+                                     {"physical.G", "physical.shear_modulus"},
+                                     {"capsule_radius", "physical.capsule_radius"},
+                                     {"membrane.laws", "membrane.law"}}) {
+    const std::string message = message_of(directory.write("case.toml", sphere), {std::string(typed) + "=1"});
+    check_contains(message, fmt::format("did you mean '{}'?", meant));
+  }
+  // No letter is near to another one.
+  for (const char *typed : {"membrane.Z", "membrane.x", "q_q", "rho"})
+    check_contains(message_of(directory.write("case.toml", sphere), {std::string(typed) + "=1"}),
+                   "`capsule keys` lists them all");
+  // What is called by a symbol is called so only once.
+  std::set<std::string> symbols;
+  for (const Key &key : keys())
+    for (const std::string &symbol : symbols_of(key)) {
+      BOOST_TEST(nearest_key(symbol) == key.name);
+      BOOST_TEST(symbols.insert(symbol).second, symbol);
+    }
+  BOOST_TEST(symbols.size() > 20u);
+}
+
+BOOST_AUTO_TEST_CASE(a_unit_where_none_belongs) {
+  std::string measured = sphere;
+  measured.replace(measured.find("0.9"), 3, "'6 mm'");
+  check_errors(measured, {"3:10: error: capsule.radius must be a number, not the text '6 mm'"});
+  const TemporaryDirectory directory;
+  for (const char *typed :
+       {"capsule.radius=6 mm", "pore.exit_x='6um'", "capsule.start_x=-6 µm", "mesh.membrane=60 nodes"})
+    check_contains(message_of(directory.write("case.toml", sphere), {typed}),
+                   "write a number without a unit: lengths in tube radii; the keys of [physical] take units");
+  check_contains(message_of(directory.write("case.toml", sphere), {"capsule.radius=large"}),
+                 "a number is written as 0.05");
 }
 
 BOOST_AUTO_TEST_CASE(unknown_law) {

@@ -235,8 +235,12 @@ BOOST_AUTO_TEST_CASE(what_would_follow_from_a_wrong_quantity_is_not_missed) {
         std::array{"nl/s", "nl",
                    "4:13: error: physical.flow_rate: '0.1 nl' is a quantity in m3, not a flow rate"},
         std::array{"mN/m", "mN/", "5:17: error: physical.shear_modulus: a unit is missing in '0.02 mN/'"},
-        std::array{"4 um", "64 um", "7:18: error: capsule.radius = 12.8 is out of range"},
+        std::array{"4 um", "64 um",
+                   "7:18: error: physical.capsule_radius makes capsule.radius = 12.8 tube radii, which is "
+                   "out of range"},
         std::array{"capsule_radius", "capsule_radus", "7:1: error: unknown key 'physical.capsule_radus'"},
+        std::array{"[membrane]\n", "[membrane]\nyoung_modulus = \"1 N/m\"\n",
+                   "10:1: error: unknown key 'membrane.young_modulus'"}, // which excludes nothing
         std::array{"flow_rate", "flow_rat", "4:1: error: unknown key 'physical.flow_rat'"},
         std::array{"[physical]", "[phyiscal]", "1:1: error: unknown section 'phyiscal'"},
         std::array{"\"1 mPa.s\"", "1e-3",
