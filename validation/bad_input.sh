@@ -59,6 +59,8 @@ hint "'=' stands between a key and its value: radius = 0.9" 'radius: 0.9'
 hint 'write true' 'output.resistance = True'
 hint "did you mean 'capsule.radius'[?]" 'radius = 0.9'
 hint "did you mean 'membrane.law'[?]" "flow.law = 'skalak'"
+hint "did you mean 'membrane.dilatation'[?]" 'membrane.C = 10'
+hint 'write a number without a unit: lengths in tube radii; .*' 'capsule.radius = "6 mm"'
 printf 'flow.type = "extension"\nuntil.time = 1\n%s\noutput.resistance = true\n' "$good" | sed /radius/d |
   bad '5:21: error: output.resistance means nothing to flow.type = "extension"'
 printf 'flow.type = "extension"\nuntil.time = 1\n%s\nflow.drive = "pressure"\n' "$good" | sed /radius/d |
@@ -293,7 +295,12 @@ expect 2 '^error: --to nan: .*finite number, not nan' "$capsule" branch file.tom
 expect 2 'error: is not a case directory' "$capsule" new fresh --like none
 expect 0 'capillary_number' "$capsule" keys
 expect 0 "a viscosity such as '1 mPa.s'" "$capsule" keys
-expect 0 'Usage' "$capsule" run --help
+expect 0 '^ *symbol: epsilon, eps, Ca$' "$capsule" keys
+for command in run steady branch fit check ledger new; do
+  expect 0 '^Usage' "$capsule" "$command" --help
+  expect 1 'no such word' sh -c "'$capsule' $command --help | grep -E 'TEXT|UINT|FLOAT' || { echo no such word; false; }"
+done
+expect 0 '^  --set KEY=VALUE' "$capsule" run --help
 expect 0 '^capsule [0-9]' "$capsule" --version
 expect 0 'to be computed' "$capsule" show file.toml
 expect 4 'No space left' sh -c "'$capsule' keys >/dev/full"

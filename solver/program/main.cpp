@@ -27,19 +27,21 @@ CLI::Validator above_zero() {
 }
 
 void add_case(CLI::App &command, Arguments &arguments) {
-  command.add_option("CASE", arguments.path, "a case directory or a .toml file")->required();
-  command
-      .add_option("--set", arguments.overrides,
-                  "a key's value instead of the file's, as key=value; may be repeated")
+  command.add_option("CASE", arguments.path, "a case directory or a .toml file")->type_name("")->required();
+  command.add_option("--set", arguments.overrides, "a key's value instead of the file's; may be repeated")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--out", arguments.out,
-                     "where results go and are looked for, those of another version too; without it "
-                     "results/<case>, with steady/ and branch/ below it, whose runs are shared between "
-                     "cases through results/runs");
+  command
+      .add_option("--out", arguments.out,
+                  "where results go and are looked for, those of another version too; without it "
+                  "results/<case>, with steady/ and branch/ below it, whose runs are shared between "
+                  "cases through results/runs")
+      ->type_name("DIRECTORY");
 }
 
 void add_jobs(CLI::App &command, Arguments &arguments) {
   command.add_option("--jobs", arguments.jobs, "runs at a time")
+      ->type_name("NUMBER")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
 }
@@ -50,6 +52,7 @@ void add_computing(CLI::App &command, Arguments &arguments) {
   command.add_flag("--fresh", arguments.fresh, "compute again what is finished, from the start");
   command
       .add_option("--time-limit", arguments.time_limit, "leave checkpoints and stop after so many seconds")
+      ->type_name("SECONDS")
       ->check(above_zero());
 }
 
@@ -57,6 +60,7 @@ void add_selection(CLI::App &command, Arguments &arguments) {
   command.add_flag("--list", arguments.list,
                    "list the runs instead: number, directory, identity, what there is; parted by tabs");
   command.add_option("--only", arguments.only, "compute only the run of this number, as --list counts")
+      ->type_name("NUMBER")
       ->check(above_zero());
 }
 
@@ -93,17 +97,22 @@ ExitCode run_command(int argc, char **argv) {
       *app.add_subcommand("steady", "the steady shape of every run of a case, without marching in time");
   add_computing(steady_app, arguments);
   add_selection(steady_app, arguments);
-  steady_app.add_option("--from", arguments.from,
-                        "begin with the last profile of a run's directory instead of from nothing");
+  steady_app
+      .add_option("--from", arguments.from,
+                  "begin with the last profile of a run's directory instead of from nothing")
+      ->type_name("DIRECTORY");
   steady_app.callback([&] { code = find_steady_states(arguments); });
   CLI::App &branch_app = *app.add_subcommand(
       "branch", "the steady states of every run along one of its keys, through folds: branch.csv");
   add_computing(branch_app, arguments);
   add_selection(branch_app, arguments);
-  branch_app.add_option("--along", arguments.along, "the key that varies, from the case's value")->required();
+  branch_app.add_option("--along", arguments.along, "the key that varies, from the case's value")
+      ->type_name("KEY")
+      ->required();
   branch_app
       .add_option("--to", arguments.to,
                   "the value of the key where the branch ends; of physical.flow_rate with its unit")
+      ->type_name("VALUE")
       ->required();
   branch_app.callback([&] { code = follow_branches(arguments); });
   CLI::App &fit_app = *app.add_subcommand(
@@ -112,6 +121,7 @@ ExitCode run_command(int argc, char **argv) {
   fit_app
       .add_option("--profile", arguments.profiles,
                   "an outline as CSV, `x [um],r [um]`, or a directory of them; may be repeated")
+      ->type_name("FILE")
       ->required();
   fit_app.add_flag("--together", arguments.together,
                    "all of them are one capsule, at several flow rates: one fit");
@@ -135,8 +145,9 @@ ExitCode run_command(int argc, char **argv) {
   show_app.callback([&] { code = show_case(arguments); });
   app.add_subcommand("keys", "every key of a case file")->callback([&] { code = list_keys(); });
   CLI::App &new_app = *app.add_subcommand("new", "a new case directory cases/ID from another one");
-  new_app.add_option("ID", id, "its name")->required();
+  new_app.add_option("ID", id, "its name")->type_name("")->required();
   new_app.add_option("--like", like, "the case to copy: a directory, or the name of one in cases/")
+      ->type_name("CASE")
       ->capture_default_str();
   new_app.callback([&] { code = create_case(id, like); });
   require_command(app, argc, argv);
