@@ -62,6 +62,12 @@ std::vector<std::string> symbols_of(const Key &key) {
   return found == table().end() ? std::vector<std::string>{} : found->symbols;
 }
 
+const Key *key_named(const std::string &name) {
+  const auto named = [&](const Key &key) { return key.name == name || short_name(key) == name; };
+  const auto found = std::ranges::find_if(keys(), named);
+  return found == keys().end() ? nullptr : &*found;
+}
+
 std::string nearest_key(const std::string &name) {
   const std::string word(last_component(name)), section = section_of(name);
   std::vector<std::string> all, last, here;

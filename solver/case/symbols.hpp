@@ -10,6 +10,9 @@ namespace capsule {
 // "epsilon", "eps", "Ca" of flow.capillary_number.
 std::vector<std::string> symbols_of(const Key &key);
 
+// By its whole or its short name; nullptr if there is none.
+const Key *key_named(const std::string &name);
+
 // By its symbol, or by the letters of its last word, of its section's keys first. Empty if none is near.
 std::string nearest_key(const std::string &name);
 

@@ -2,6 +2,7 @@
 #include "base/csv.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
+#include "compare/reference_units.hpp"
 #include "compare/run_values.hpp"
 #include "observe/outcome.hpp"
 #include <algorithm>

@@ -3,10 +3,9 @@
 #include "base/text.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
-#include "case/physical.hpp"
 #include "case/symbols.hpp"
 #include "case/value_lists.hpp"
-#include "observe/unit_of.hpp"
+#include "compare/reference_units.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -26,12 +25,6 @@ std::vector<std::string> split(const std::string &text, char separator) {
   for (std::string part; std::getline(stream, part, separator);)
     parts.push_back(trimmed(part));
   return parts;
-}
-
-const Key *key_named(const std::string &name) {
-  const auto named = [&](const Key &key) { return key.name == name || short_name(key) == name; };
-  const auto found = std::ranges::find_if(keys(), named);
-  return found == keys().end() ? nullptr : &*found;
 }
 
 // A physical quantity may be given in any unit, as in the names of runs ("5uL_per_min"), or as a number in SI units.
@@ -82,59 +75,6 @@ const Values &column(const Columns &columns, const std::string &name) {
   if (found == columns.end())
     throw no_value(name, names_of(columns));
   return found->second;
-}
-
-constexpr std::string_view of_errors = "error_estimate.";
-
-// A name without the number of a capsule and without what says that its error is meant.
-std::string quantity_of(const std::string &name) {
-  const std::string quantity = name.substr(0, name.find('#'));
-  return quantity.starts_with(of_errors) ? quantity.substr(of_errors.size()) : quantity;
-}
-
-// What a unit is in SI units. Throws InputError as check_units.
-double read_unit(const std::string &name, const std::string &unit, const Dimension &wanted) {
-  const std::string one = "1 ";
-  const auto read = read_quantity(one + unit, wanted);
-  if (const auto *quantity = std::get_if<Quantity>(&read))
-    return quantity->si;
-  const auto &[why, meant] = std::get<NoQuantity>(read);
-  throw InputError(
-      fmt::format("{} [{}]: {}{}", name, unit, why,
-                  meant.empty() ? "" : fmt::format(", did you mean '[{}]'?", meant.substr(one.size()))));
-}
-
-const Measured *measured_key(const std::string &name) {
-  const Key *key = key_named(name);
-  return key != nullptr ? std::get_if<Measured>(&key->field) : nullptr;
-}
-
-void check_unit(const std::string &name, const std::string &unit) {
-  if (unit.empty())
-    return;
-  const auto physical = unit_of(quantity_of(name));
-  const Measured *measured = measured_key(name);
-  if (!physical && measured == nullptr)
-    throw InputError(fmt::format("'{}' has no unit", name));
-  read_unit(name, unit, physical ? physical->dimension : measured->dimension);
-}
-
-// By what the number that stands under a name is multiplied to be in this unit.
-double in_unit(const RunResult &run, const std::string &name, const std::string &unit) {
-  if (unit.empty())
-    return 1;
-  const auto physical = unit_of(quantity_of(name));
-  if (!physical)
-    return 1 / read_unit(name, unit, measured_key(name)->dimension);
-  const std::size_t mark = name.find('#');
-  const Case &physics = *capsules_of(run.input.physics)
-                             .at(mark == std::string::npos ? 0 : std::stoul(name.substr(mark + 1)) - 1);
-  if (!has_physical(physics) || !run.summary->along.empty())
-    throw NoValue(has_physical(physics) ? "no units along a branch" : "not in physical units");
-  const Scales scales = physical_scales(physics);
-  if (!has_scale(physical, scales))
-    throw NoValue("no resistivity");
-  return scales.*physical->scale / read_unit(name, unit, physical->dimension);
 }
 
 // y where x passes a value for the first time; linear between the rows.
@@ -230,12 +170,6 @@ bool Selector::selects(const Case &physics) const {
     return std::ranges::any_of(wanted.second,
                                [&](const std::string &text) { return has_value(physics, key, text); });
   });
-}
-
-void check_units(const Reference &reference) {
-  check_unit(reference.name, reference.unit);
-  for (const Place &place : reference.places)
-    check_unit(place.column, place.unit);
 }
 
 std::optional<std::string> case_of(const Reference &reference) {

@@ -67,9 +67,6 @@ private:
   mutable std::map<std::filesystem::path, Columns> files_; // read so far
 };
 
-// Throws InputError, with one line, if a name of the reference has no unit, or not this one.
-void check_units(const Reference &reference);
-
 // The two parts of what stands between a reference's braces, "another-case: radius=0.9": the case, if there is one, and
 // the selector.
 std::optional<std::string> case_of(const Reference &reference);

@@ -1,5 +1,6 @@
 // What names mean in a run: summary, series, profiles, keys; other runs and cases; errors carried through.
 #include "base/failure.hpp"
+#include "compare/reference_units.hpp"
 #include "compare/run_values.hpp"
 #include "law/skalak.hpp"
 #include "observe/quantities.hpp"
