@@ -24,3 +24,4 @@ for file in tables/table[0-9]*; do
   *.csv | *.md) rm -f "$file" ;;
   esac
 done
+sh cmake/orphans.sh

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Writes figures/gallery.md: the figures and tables of the given cases in the order of the paper, then those of other
 # cases, and how they compare.
-# Pictures of cases and studies that are no longer there go.
+# Pictures of cases and studies that are no longer there go, and their tables are named.
 #   sh cmake/gallery.sh <case> ...     in the project's directory
 set -eu
 is_of_the_paper() { # a case
@@ -52,3 +52,4 @@ done
     cat tables/ledger.md
   fi
 } >figures/gallery.md
+sh cmake/orphans.sh

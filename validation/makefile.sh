@@ -1,7 +1,7 @@
 #!/bin/sh
 # What the Makefile does beyond CMake: a build directory that came with a copy of the tree, or was moved with it, is
 # configured anew and nothing is written where it came from; `make test` ends with the tests that were skipped; `make
-# sweep` takes the case's name as it is typed; `make clean` removes what it has made.
+# sweep` takes the case's name as it is typed; `make clean` removes what it has made, and what belongs to no case is named.
 #   sh validation/makefile.sh path/to/capsule
 . "$(dirname "$0")/lib/program.sh"
 # What a make that runs this test hands down is not for the make that is tested: it would speak of levels.
@@ -80,4 +80,19 @@ done
 make_in first clean || fail 'make clean'
 (cd first && find tables figures build* results -type f 2>/dev/null | sed 's|^|first/|' | sort) >left
 sort stay | cmp - left || fail "make clean leaves this: $(cat left)"
+for file in tables/mine.csv tables/mine.md tables/table.csv tables/table2-mine.csv figures/mine/; do
+  grep -qxF "$file belongs to no case and no study, and stays" log || fail "$file is not named"
+done
+[ "$(grep -c 'and stays' log)" -eq 5 ] || fail "make clean names: $(cat log)"
+# So do pictures of a case that was removed; its table is named where figures are drawn.
+mkdir first/cases/two first/figures/two first/figures/one
+for file in cases/one/case.toml cases/one/stored.toml cases/two/case.toml tables/one.csv tables/one-stored.csv tables/two.csv \
+  tables/ledger.csv tables/table3.md figures/two/drawn.svg figures/one/drawn.svg; do
+  : >"first/$file"
+done
+rm -r first/cases/two
+(cd first && sh cmake/gallery.sh one) >log || fail 'the gallery'
+[ ! -e first/figures/two ] && [ -e first/figures/one/drawn.svg ] || fail 'pictures of a case that was removed'
+grep -q '^tables/two.csv belongs to no case' log || fail "the table of a case that was removed: $(cat log)"
+! grep -E 'one|ledger|table3|published' log || fail 'a table that belongs to a case is named'
 echo 'a copy is configured anew, skipped tests are listed, names are taken as they are typed'
