@@ -72,6 +72,14 @@ bending_ratio = 0.01
 TOML
 ends 0 branch physical.toml --along physical.flow_rate --to '30 nl/s' --out physical
 near "$(of physical $key)" "$fold" 1e-6 'the fold in physical units'
+awk -F, -v key="$key" '
+  FNR == 1 { for (i = 1; i <= NF; ++i) column[$i, NR == FNR] = i; next }
+  NR == FNR { eps[FNR] = $column[key, 1]; drop[FNR] = $column["pressure_drop", 1]; next }
+  function apart(a, b) { return a / b - 1 > 1e-9 || a / b - 1 < -1e-9 }
+  # 1e-10 m3/s at eps = 1, and mu Q/(pi R_t^3)
+  { rate = $column["physical.flow_rate [m3/s]", 0]; pressure = rate / (3.14159265358979 * 50e-6 ^ 3) }
+  $1 != eps[FNR] || apart(rate, 1e-10 * eps[FNR]) || apart($column["pressure_drop [Pa]", 0], drop[FNR] * pressure) { exit 1 }
+  ' physical/branch.csv physical/branch_physical.csv || fail 'the branch in SI units'
 near "$(sed -n 's/.*fold at a flow rate of \(.*\) nl\/s.*/\1/p' log | awk '{ print $1 / 100 }')" "$fold" 1e-4 'its flow rate'
 for rates in '"10 nl/s", "12 nl/s"' '"12 nl/s", "10 nl/s"'; do
   ends 0 branch physical.toml --along physical.flow_rate --to '30 nl/s' --set "sweep.physical.flow_rate=[$rates]" --list

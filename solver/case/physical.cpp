@@ -43,6 +43,20 @@ Quantity density(const Case &physics) {
   return given.si > 0 ? given : Quantity{of_water};
 }
 
+Scales scales_at(const Case &physics, double flow_rate) {
+  const double radius = physics.physical.tube_radius.si, viscosity = physics.physical.viscosity.si;
+  return {.length = radius,
+          .velocity = flow_rate / (pi * radius * radius),
+          .time = pi * std::pow(radius, 3) / flow_rate,
+          .pressure = viscosity * flow_rate / (pi * std::pow(radius, 3)),
+          .tension = shear_modulus(physics),
+          .flow_rate = flow_rate,
+          .viscosity = viscosity,
+          .rate = flow_rate / (pi * std::pow(radius, 3)),
+          .per_length = 1 / radius,
+          .resistance = physics.physical.resistivity.si / (pi * radius)};
+}
+
 // Without the digits in which decimal fractions differ from doubles: 4e-6/5e-6 is 0.8.
 double rounded(double value) {
   return std::strtod(fmt::format("{:.15g}", value).c_str(), nullptr);
@@ -176,14 +190,13 @@ std::string reynolds_text(const Case &physics) {
 }
 
 Scales physical_scales(const Case &physics) {
-  const double radius = physics.physical.tube_radius.si, rate = flow_rate(physics);
-  return {.length = radius,
-          .velocity = rate / (pi * radius * radius),
-          .time = pi * std::pow(radius, 3) / rate,
-          .pressure = physics.physical.viscosity.si * rate / (pi * std::pow(radius, 3)),
-          .tension = shear_modulus(physics),
-          .flow_rate = rate,
-          .resistance = physics.physical.resistivity.si / (pi * radius)};
+  return scales_at(physics, flow_rate(physics));
+}
+
+Scales scales_by_capillary_number(const Case &physics) {
+  const auto &p = physics.physical;
+  return scales_at(physics, physics.flow.capillary_number * pi * p.tube_radius.si * p.tube_radius.si *
+                                shear_modulus(physics) / p.viscosity.si);
 }
 
 } // namespace capsule

@@ -49,8 +49,11 @@ bool is_inertia_small(const Case &physics);
 
 struct Scales {
   double length = 1, velocity = 1, time = 1, pressure = 1, tension = 1, flow_rate = 1;
+  double viscosity = 1, rate = 1, per_length = 1;
   double resistance = 0; // unknown without the liquid's resistivity
 };
 Scales physical_scales(const Case &physics);
+// The same with the flow rate that the capillary number tells, which may be another one than the given: on a branch.
+Scales scales_by_capillary_number(const Case &physics);
 
 } // namespace capsule

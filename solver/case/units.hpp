@@ -20,7 +20,7 @@ struct Dimension {
 namespace dimension {
 constexpr Dimension length{1, 0, 0}, viscosity{-1, 1, -1}, flow_rate{3, 0, -1}, pressure{-1, 1, -2},
     density{-3, 1, 0}, tension{0, 1, -2}, surface_viscosity{0, 1, -1}, energy{2, 1, -2}, velocity{1, 0, -1},
-    time{0, 0, 1}, resistance{2, 1, -3, -2}, resistivity{3, 1, -3, -2};
+    time{0, 0, 1}, rate{0, 0, -1}, per_length{-1, 0, 0}, resistance{2, 1, -3, -2}, resistivity{3, 1, -3, -2};
 } // namespace dimension
 
 struct Quantity {

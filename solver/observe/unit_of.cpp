@@ -1,9 +1,21 @@
 #include "observe/unit_of.hpp"
 #include "observe/transit.hpp"
 #include <algorithm>
+#include <array>
 
 namespace capsule {
 namespace {
+
+struct SteadyQuantity {
+  const char *name;
+  PhysicalUnit unit;
+};
+constexpr PhysicalUnit per_second{&Scales::rate, dimension::rate};
+constexpr std::array of_steady_states{
+    SteadyQuantity{"growth_rate", per_second}, SteadyQuantity{"oscillation_rate", per_second},
+    SteadyQuantity{"pairing_growth_rate", per_second},
+    SteadyQuantity{"growth_per_length", {&Scales::per_length, dimension::per_length}},
+    SteadyQuantity{"apparent_viscosity", {&Scales::viscosity, dimension::viscosity}}};
 
 // The entry of a table with this name, or nothing.
 template <class Table>
@@ -20,6 +32,8 @@ std::optional<PhysicalUnit> unit_of(std::string_view name) {
     return reported->unit;
   if (const auto *peak = entry(peak_quantities(), name))
     return peak->unit;
+  if (const auto *steady = entry(of_steady_states, name))
+    return steady->unit;
   if (const auto *of_profiles = entry(profile_quantities(), name))
     return of_profiles->unit;
   if (name == "empty_resistance")

@@ -5,6 +5,7 @@
 #include "case/case_file.hpp"
 #include "case/identity.hpp"
 #include "case/keys.hpp"
+#include "case/physical.hpp"
 #include "case/value_lists.hpp"
 #include "observe/outcome.hpp"
 #include "output/checkpoint.hpp"
@@ -58,9 +59,9 @@ bool is_of_follower(std::string_view name) {
 
 // Names that a run may give to its files.
 bool is_result(const fs::path &file) {
-  constexpr std::array names{summary_name,   "series.csv",    "series_physical.csv",
-                             "profiles.csv", "resolved.toml", provenance_name,
-                             "membrane.pvd", "branch.csv",    "wall.vtp"};
+  constexpr std::array names{summary_name,          "series.csv",    "series_physical.csv", "profiles.csv",
+                             "resolved.toml",       provenance_name, "membrane.pvd",        "branch.csv",
+                             "branch_physical.csv", "wall.vtp"};
   const std::string name = file.filename().string();
   return std::ranges::find(names, name) != names.end() || is_surface(name) || is_of_follower(name);
 }
@@ -128,6 +129,8 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
   }
   if (!outcome.along.empty())
     files.emplace_back("branch.csv", branch_csv(outcome));
+  if (!outcome.branch.empty() && has_physical(physics))
+    files.emplace_back("branch_physical.csv", physical_branch_csv(physics, outcome));
   if (const auto pore = task.motion ? make_pore(physics.pore) : std::nullopt)
     files.emplace_back("wall.vtp", wall_vtp(*pore));
   files.emplace_back("membrane.pvd", surfaces_pvd(profiles, outcome.along, capsules.size()));

@@ -107,12 +107,12 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
     json["folds"] = Json::array();
     for (const BranchRow &fold : outcome.folds) {
       Json entry{{outcome.along, fold.parameter}, {"growth_rate", fold.growth_rate}};
-      if (outcome.along == flow_key && has_physical(physics))
-        entry[name_with_unit("flow_rate", PhysicalUnit{&Scales::flow_rate, dimension::flow_rate})] =
-            physical_scales(physics).flow_rate * fold.parameter / physics.flow.capillary_number;
       for (const ReportedQuantity &quantity : branch_quantities())
         if (applies(quantity) && is_reported(quantity, fold.row))
           entry[quantity.name] = finite_or_null(fold.row.*quantity.value);
+      if (has_physical(physics))
+        for (const auto &[name, value] : physical_values(physics, outcome.along, fold))
+          entry["physical"][name] = finite_or_null(value);
       json["folds"].push_back(std::move(entry));
     }
   }

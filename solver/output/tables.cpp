@@ -2,12 +2,16 @@
 #include "base/csv.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
+#include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include "case/physical.hpp"
 #include "observe/outcome.hpp"
 #include "observe/quantities.hpp"
+#include "observe/unit_of.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <optional>
 
 namespace capsule {
 namespace {
@@ -75,6 +79,36 @@ std::string branch_csv(const Outcome &outcome) {
       fields.push_back(number_text(point.row.*quantity.value));
     fields.push_back(number_text(point.growth_rate));
     text += csv_row(fields);
+  }
+  return text;
+}
+
+std::vector<std::pair<std::string, double>> physical_values(const Case &physics, const std::string &along,
+                                                            const BranchRow &point) {
+  const Scales scales = scales_by_capillary_number(with_number(physics, along, point.parameter));
+  std::vector<std::pair<std::string, double>> values;
+  const auto add = [&](const std::string &name, const std::optional<PhysicalUnit> &unit, double value) {
+    if (has_scale(unit, scales))
+      values.emplace_back(name_with_unit(name, *unit), value * scales.*unit->scale);
+  };
+  if (along == flow_key)
+    add("physical.flow_rate", unit_of("flow_rate"), 1);
+  for (const ReportedQuantity &quantity : branch_quantities())
+    if (is_reported(quantity, point.row))
+      add(quantity.name, quantity.unit, point.row.*quantity.value);
+  add("growth_rate", unit_of("growth_rate"), point.growth_rate);
+  return values;
+}
+
+std::string physical_branch_csv(const Case &physics, const Outcome &outcome) {
+  std::string text;
+  for (const BranchRow &point : outcome.branch) {
+    std::vector<std::string> names{outcome.along}, fields{number_text(point.parameter)};
+    for (const auto &[name, value] : physical_values(physics, outcome.along, point)) {
+      names.push_back(name);
+      fields.push_back(number_text(value));
+    }
+    text += (text.empty() ? csv_row(names) : "") + csv_row(fields);
   }
   return text;
 }

@@ -1,5 +1,6 @@
 // Files of a run: what they say, whose they are, sharing and replacing.
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 #include "base/json_file.hpp"
 #include "case/case_file.hpp"
 #include "case/identity.hpp"
@@ -218,6 +219,70 @@ BOOST_AUTO_TEST_CASE(results_in_physical_units) {
   }
   BOOST_TEST(columns == by_hand.size());
   BOOST_TEST(summary.at("tension scale [N/m]").get<double>() == 2e-5);
+}
+
+// By hand. The flow rate grows with the capillary number; along another key it stays.
+BOOST_AUTO_TEST_CASE(branches_in_physical_units) {
+  Case physics = pore_case();
+  physics.physical.tube_radius = {5e-6};
+  physics.physical.viscosity = {1e-3};
+  physics.physical.shear_modulus = {2e-5};
+  physics.flow.capillary_number = 0.04;
+  physics.physical.flow_rate = {0.04 * std::numbers::pi * 25e-12 * 2e-5 / 1e-3};
+  for (const auto &[along, value, velocity] :
+       {std::tuple{"flow.capillary_number", 0.1, 2e-3}, {"capsule.radius", 0.7, 0.8e-3}}) {
+    const TemporaryDirectory directory;
+    Outcome outcome = outcome_with(random_checkpoint());
+    outcome.along = along;
+    SeriesRow row = outcome.last.series.back();
+    row.v_g = 1.5;
+    row.pressure_drop = 4;
+    row.min_film = 0.1;
+    row.length = 1.7;
+    row.flow_rate = 0.7;
+    outcome.branch = {{value, row, -0.3}, {value, row, -0.2}};
+    outcome.folds = {{value, row, 0}};
+    write_results(directory.path, physics, outcome, {});
+    std::map<std::string, double> by_hand = {{"v_g [m/s]", 1.5 * velocity},
+                                             {"pressure_drop [Pa]", 4e-3 * velocity / 5e-6},
+                                             {"min_film [m]", 0.5e-6},
+                                             {"length [m]", 8.5e-6},
+                                             {"flow_rate [m3/s]", 0.7 * velocity * std::numbers::pi * 25e-12},
+                                             {"growth_rate [s-1]", -0.2 * velocity / 5e-6}};
+    if (std::string(along) == "flow.capillary_number")
+      by_hand["physical.flow_rate [m3/s]"] = velocity * std::numbers::pi * 25e-12;
+    const Columns columns = read_columns(directory.path / "branch_physical.csv");
+    const auto fold = read_json(directory.path / "summary.json").value().at("folds").at(0).at("physical");
+    BOOST_TEST(columns.at(along).at(1) == value);
+    for (const auto &[name, expected] : by_hand) {
+      BOOST_TEST_CONTEXT(name) {
+        BOOST_TEST(columns.at(name).at(1) == expected, boost::test_tools::tolerance(1e-14));
+        if (name != "growth_rate [s-1]") // 0 at a fold
+          BOOST_TEST(fold.at(name).get<double>() == expected, boost::test_tools::tolerance(1e-14));
+      }
+    }
+    BOOST_TEST(!fs::exists(directory.path / "series_physical.csv"));
+  }
+}
+
+// Rates of steady states have units, too.
+BOOST_AUTO_TEST_CASE(steady_states_in_physical_units) {
+  const TemporaryDirectory directory;
+  Case physics = pore_case();
+  physics.physical.tube_radius = {5e-6};
+  physics.physical.viscosity = {1e-3};
+  physics.physical.flow_rate = {2e-3 * std::numbers::pi * 25e-12};
+  physics.physical.shear_modulus = {2e-5};
+  Outcome outcome = outcome_with(random_checkpoint());
+  outcome.status = Status::steady;
+  outcome.further = {{"growth_rate", -0.5}, {"growth_per_length", -0.2}, {"apparent_viscosity", 1.3}};
+  physics.followers.assign(outcome.last.followers.size(), physics);
+  write_results(directory.path, physics, outcome, {});
+  const auto physical = read_json(directory.path / "summary.json").value().at("physical");
+  for (const auto &[name, expected] : {std::pair{"growth_rate [s-1]", -200.},
+                                       {"growth_per_length [m-1]", -4e4},
+                                       {"apparent_viscosity [Pa.s]", 1.3e-3}})
+    BOOST_TEST(physical.at(name).get<double>() == expected, boost::test_tools::tolerance(1e-14));
 }
 
 BOOST_AUTO_TEST_CASE(what_another_input_has_left_is_named) {
