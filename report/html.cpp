@@ -119,6 +119,9 @@ std::string table_cell(const std::string &column, const std::string &text) {
 std::string verdict_style(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, const char *>, 3> styles{
       {{"agrees", "agrees"}, {"differs", "differs"}, {"not decidable", "undecided"}}};
+  for (const std::string_view failure : {"NOT AS RECORDED", "ERROR TOO LARGE"})
+    if (text.find(failure) != std::string_view::npos)
+      return "failed";
   for (const auto &[verdict, style] : styles)
     if (text.starts_with(verdict))
       return style;

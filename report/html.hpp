@@ -17,7 +17,8 @@ std::string prose(const std::string &text);
 // A caption's file without its pictures, as prose.
 std::string caption(const std::filesystem::path &markdown);
 
-// The style of a text that starts with a verdict: agrees, differs or undecided; empty for any other.
+// The style of a text that starts with a verdict: agrees, differs or undecided; failed if it is not as it was recorded, or
+// too uncertain; empty for any other.
 std::string verdict_style(std::string_view text);
 
 // The bytes of a picture, for its address.

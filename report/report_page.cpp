@@ -4,6 +4,8 @@
 // read from figures/<id>/, tables/<id>.csv and results/<id>/, where `make figures` and `make atlas` write them; what has
 // not been computed yet is named with the command that does it. The page's frame, style and scripts are beside this file.
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
+#include "base/text.hpp"
 #include "case/case_file.hpp"
 #include "claims.hpp"
 #include "html.hpp"
@@ -81,6 +83,22 @@ Part figure(const fs::path &picture, const std::string &id) {
           ""};
 }
 
+// Numbers of a case or study beside those that are expected; open where one is not as recorded.
+std::string comparison(const fs::path &csv) {
+  const std::vector<capsule::CsvRow> lines = capsule::read_csv(csv);
+  const auto verdict =
+      lines.empty() ? 0 : std::ranges::find(lines[0].fields, "verdict") - lines[0].fields.begin();
+  const auto failed = std::ranges::count_if(lines, [&](const capsule::CsvRow &line) {
+    return verdict_style(line.fields.at(static_cast<std::size_t>(verdict))) == "failed";
+  });
+  return fmt::format("<details{}><summary>Computed against expected values{}</summary>\n{}</details>\n",
+                     failed > 0 ? " open" : "",
+                     failed > 0 ? fmt::format(": <span class=\"failed\">{} of {} not as recorded</span>",
+                                              failed, capsule::counted(lines.size() - 1, "row"))
+                                : "",
+                     table(csv));
+}
+
 // The figures of a case or study, and the comparison of its numbers.
 Part chapter(const fs::path &directory, bool is_case) {
   const std::string id = directory.filename();
@@ -91,8 +109,7 @@ Part chapter(const fs::path &directory, bool is_case) {
     part.contents.merge(one.contents);
   }
   if (const fs::path csv = fs::path("tables") / (id + ".csv"); fs::exists(csv))
-    part.html += fmt::format("<details><summary>Computed against expected values</summary>\n{}</details>\n",
-                             table(csv));
+    part.html += comparison(csv);
   if (part.html.empty())
     part.missing = fmt::format("<li>{} <code>cmake --build build --target {}-{}</code></li>\n",
                                question(directory), is_case ? "figure" : "study", escaped(id));
@@ -201,7 +218,7 @@ void write_page(const fs::path &page, const std::vector<fs::path> &directories) 
       filled(file("page.html"), {{"style", file("style.css")},
                                  {"player script", file("player.js")},
                                  {"page script", file("page.js")},
-                                 {"claims", claims("tables/ledger.csv")},
+                                 {"claims", claims("tables/ledger.csv", directories)},
                                  {"figures", contents_list(of_the_paper)},
                                  {"items of the paper", of_the_paper.html},
                                  {"other figures", contents_list(others)},

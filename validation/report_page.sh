@@ -54,9 +54,17 @@ echo '**Figure 5a.** Profiles at x_g = 2: they differ by 1e-05 in max_stretch.' 
 cat > tables/ledger.csv << 'END'
 claim,row,where,kind,statement,published,with the paper's numerics,converged,own error,distance,allowed,verdict,cause,reading and evidence,run,quantity
 A,A-1,Table 2,number,"v_g, lambda 1",1.3012,,1.30174231,2e-06,+0.04 %,0.1 %,agrees,,one digit,,
+A,A-2,Table 2,number,"v_g, lambda 5",1.29,,1.2902,2e-06,+0.02 %,0.1 %,agrees,,one digit,,
+B,B-0,Table 3,number,"Delta P, lambda 5",17.2,,17.21,0.006,+0.01,0.05,agrees,,,,
 B,B-1,Table 3,number,"Delta P, lambda 1",18.30,18.31,17.64103,0.006,-0.66,0.05,differs,mesh,an error of the paper's mesh,,
 C,C-1,Figure 8,number,x_g at t 18.7,3.44,,3.398205,7e-06,-0.042,0.005,differs,,nothing gives it,,
 D,D-1,Table 1,number,"x_g, N_M 60",11.7255558,,11.7254,,,,not decidable,,not said,,
+END
+cat > tables/small.csv << 'END'
+id,where,run,quantity,computed,converged,own error,published,distance,allowed,verdict
+film,,viscosity_ratio=1,min_film,0.1234,,1e-05,>0,+0.12,,agrees
+drop,,viscosity_ratio=3,"max(pressure_drop@x_g=-1..0, 2)",3.21,,0.001,4.5,-29 %,1 %,"differs, NOT AS RECORDED"
+ALL-dV,Section 4.2,viscosity_ratio=3,volume_change,1e-9,,,<0.001,-0.001,,agrees
 END
 echo '# What is not computed?' > validation/uncomputed/README.md
 "$report" page.html cases/small cases/two validation/uncomputed
@@ -197,14 +205,20 @@ test -s "$(script 'decodeURIComponent(new URL(document.querySelector("#data a").
 echo "ok: the data are linked"
 
 shown='[...document.querySelectorAll("#claims tbody")].filter((row) => !row.hidden).map((row) => row.dataset.outcome).join()'
-expect "the ledger begins with its sums" "4 rows,1 agree,1 differ because the paper's mesh is too coarse,1 are not reproduced,1 cannot be decided" \
+expect "the ledger begins with its sums, of claims" "4 claims in 6 rows,1 agree,1 cannot be decided,1 differ because the paper's mesh is too coarse,1 are not reproduced,1 check of a case fails" \
   "$(script '[...document.querySelectorAll("#sums button")].map((button) => button.textContent).join()')"
+expect "a check of a case that fails is among them, in red" "small differs, NOT AS RECORDED 600 rgb(192, 0, 24)" "$(script '(() => {
+  const row = document.querySelector("#claims tbody"), verdict = row.querySelector(".failed"), { fontWeight, color } = getComputedStyle(verdict);
+  return [row.querySelector("a").textContent, verdict.textContent, fontWeight > 600 ? 600 : fontWeight, color].join(" ") })()')"
+expect "checks are counted" "1 of 2 agree, 1 fail." "$(script 'document.getElementById("counted").textContent.match(/1 of .*/)[0]')"
+expect "the case says so, too" "true 1 of 3 rows not as recorded" "$(script '(() => { const comparison = document.querySelector("#small details");
+  return [comparison.open, comparison.querySelector(".failed").textContent].join(" ") })()')"
 script 'document.querySelector("#sums button.mesh").click()' > /dev/null
-expect "a sum is a filter" mesh "$(script "$shown")"
+expect "a sum is a filter, of all rows of its claims" mesh,mesh "$(script "$shown")"
 script 'document.querySelector("#sums button").click()' > /dev/null
 call POST "$at/element/$(element find)/value" '{"text": "table v"}' > /dev/null
-expect "words are found" agrees "$(script "$shown")"
-expect "a number has the digits that its error leaves" "1.301742 ± 2·10-6" "$(script 'document.querySelector("#claims td[data-label=ours]").textContent')"
+expect "words are found" agrees,agrees "$(script "$shown")"
+expect "a number has the digits that its error leaves" "1.301742 ± 2·10-6" "$(script 'document.querySelector("#claims tbody[data-outcome=agrees] td[data-label=ours]").textContent')"
 
 expect "figures begin small" false "$(script 'document.getElementById("enlarged").open')"
 script 'document.querySelector("button.enlarge").click()' > /dev/null
@@ -223,7 +237,7 @@ call POST "$at/goog/cdp/execute" '{"cmd": "Emulation.setEmulatedMedia",
 expect "it fits a narrow screen" true "$(script 'document.documentElement.scrollWidth <= 360')"
 expect "it is dark where dark is wanted" 'rgb(20, 23, 27)' "$(script 'getComputedStyle(document.body).backgroundColor')"
 expect "figures follow" true "$(script 'getComputedStyle(document.querySelector("figure img")).filter.includes("invert")')"
-expect "claims are cards" block "$(script 'getComputedStyle(document.querySelector("#claims tbody")).display')"
+expect "claims are cards" block "$(script 'getComputedStyle(document.querySelector("#claims tbody:not([hidden])")).display')"
 script 'document.getElementById("player").scrollIntoView()' > /dev/null
 picture narrow-dark
 call POST "$at/goog/cdp/execute" '{"cmd": "Emulation.setTouchEmulationEnabled", "params": {"enabled": true}}' > /dev/null
