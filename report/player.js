@@ -3,7 +3,7 @@
 // by player_data.cpp:
 //   fields[]: name, neutral (the value of the undeformed membrane)
 //   quantities[]: column, name, symbol, base (where its axis begins)
-//   runs[]: case, name, directory, walls, opening_angle (radians), second_mouth (or null),
+//   runs[]: case, name, label (of what differs between the runs of the case), directory, walls, opening_angle (radians), second_mouth (or null),
 //     series {x_g, time, and quantities by their columns: {decimals, values[]}},
 //     frames[] {time, x_g, capsules[] {x[], r[], fields[][]}}, the leading capsule first
 "use strict";
@@ -23,7 +23,7 @@
     runs.forEach((run, i) => {
       if (i === 0 || run.case !== runs[i - 1].case)
         choice.append(Object.assign(document.createElement("optgroup"), { label: run.case }));
-      choice.lastElementChild.append(new Option(run.name, i));
+      choice.lastElementChild.append(new Option(run.label, i));
     });
   run_choice.value = 0;
   fields.forEach((field, i) => colour_choice.add(new Option(field.name, i)));
@@ -194,10 +194,12 @@
     draw_scale(scale_of_field);
   };
 
-  // The axes are those of all runs: what is seen of one can be compared with another.
-  const values_of_all = (column) => runs.flatMap(({ series }) => series[column]?.values ?? []);
+  // The axes are those of all runs of the cases that are shown: what is seen of one can be compared with another.
+  const values_of_all = (column) => runs.filter((run) => shown_runs().some((shown) => shown.case === run.case))
+    .flatMap(({ series }) => series[column]?.values ?? []);
   const axes = () => {
-    const [left, right] = range_of(values_of_all(clock())), [low, high] = range_of(values_of_all(quantity().column));
+    const [left, right] = range_of(values_of_all(clock())), values = values_of_all(quantity().column);
+    const [low, high] = values.length ? range_of(values) : [0, 1];
     const bottom = Math.min(low, quantity().base);
     return { left, right, bottom, top: high + 0.05 * (high - bottom) };
   };
@@ -278,6 +280,7 @@
     write_readout(instant);
   };
 
+  const described_runs = () => shown_runs().map((run, i) => `${i ? "dashed: " : ""}${run.case}: ${run.name}`);
   // Other runs keep the instant, as far as they go.
   const choose = () => {
     const instant = slider.valueAsNumber;
@@ -287,6 +290,7 @@
       const path = [...directory.split("/"), name].map(encodeURIComponent).join("/");
       return Object.assign(document.createElement("a"), { href: path, textContent: i ? `second ${name}` : name });
     }));
+    by_id("which").textContent = described_runs().join("; ");
     by_id("data").replaceChildren("Data, beside this page:", ...links);
     draw();
   };
@@ -344,7 +348,7 @@
   // Both pictures on one sheet, with the names of the runs.
   const save = () => {
     const sheet = document.createElement("canvas"), dots = window.devicePixelRatio || 1, line = 22 * dots;
-    const names = shown_runs().map((run, i) => `${i ? "dashed: " : ""}${run.case}: ${run.name}`);
+    const names = described_runs();
     names.push(`${clock() === "time" ? "t" : "x_g"} = ${slider.valueAsNumber.toFixed(2)}`);
     sheet.width = pore.width;
     sheet.height = pore.height + curve.height + (names.length + 0.5) * line;

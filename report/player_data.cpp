@@ -138,8 +138,9 @@ Json player_series(const fs::path &run, const Json &estimates) {
   return series;
 }
 
-// Which capsule in which flow: "sphere, Skalak C = 0, size 0.9, ε = 0.04, λ = 10". Where several differ, what each has.
-std::string capsule_name(const Json &parameters) {
+// Which capsule in which flow, in parts: "sphere", "Skalak C = 0", "size 0.9", "ε = 0.04", "λ = 10". Where several differ,
+// what each has.
+std::vector<std::string> parts_of_name(const Json &parameters) {
   const auto values = [&](const std::string &key) {
     const Json &value = parameters.at(key);
     return value.is_array() ? value : Json::array({value});
@@ -151,24 +152,28 @@ std::string capsule_name(const Json &parameters) {
     return fmt::format("{}", fmt::join(texts, " and "));
   };
   const Json &aspect_ratio = parameters.at("capsule.aspect_ratio");
-  std::string name = aspect_ratio.is_null() ? "biconcave"
-                     : aspect_ratio == 1.0  ? "sphere"
-                                            : "spheroid A/B = " + number("capsule.aspect_ratio");
+  std::vector<std::string> parts = {aspect_ratio.is_null() ? "biconcave"
+                                    : aspect_ratio == 1.0
+                                        ? "sphere"
+                                        : "spheroid A/B = " + number("capsule.aspect_ratio")};
   const Json laws_there = values("membrane.law");
   for (const capsule::Law *law : capsule::laws())
     if (std::ranges::find(laws_there, Json(law->name)) != laws_there.end()) {
-      name += fmt::format(", {}", law->title);
+      parts.emplace_back(law->title);
       for (const capsule::LawParameter &declared : law->parameters)
-        name += fmt::format(" {} = {}", declared.symbol, number(std::string("membrane.") + declared.name));
+        parts.back() +=
+            fmt::format(" {} = {}", declared.symbol, number(std::string("membrane.") + declared.name));
     }
-  name += fmt::format(", size {}, ε = {}, λ = {}", number("capsule.radius"), number("flow.capillary_number"),
-                      number("flow.viscosity_ratio"));
+  parts.push_back("size " + number("capsule.radius"));
+  parts.push_back("ε = " + number("flow.capillary_number"));
+  parts.push_back("λ = " + number("flow.viscosity_ratio"));
   if (parameters.at("membrane.shear_viscosity") != 0.0)
-    name += fmt::format(", viscous membrane {}", number("membrane.shear_viscosity"));
+    parts.push_back("viscous membrane " + number("membrane.shear_viscosity"));
   if (parameters.at("capsule.start_x").is_array())
-    name += fmt::format(", starting at {}", number("capsule.start_x"));
-  const Json &nodes = parameters.at("mesh.membrane");
-  return nodes.is_null() ? name : fmt::format("{}, {} nodes", name, nodes.dump());
+    parts.push_back("starting at " + number("capsule.start_x"));
+  if (const Json &nodes = parameters.at("mesh.membrane"); !nodes.is_null())
+    parts.push_back(nodes.dump() + " nodes");
+  return parts;
 }
 
 Json player_run(const fs::path &run, const Json &frames) {
@@ -178,13 +183,35 @@ Json player_run(const fs::path &run, const Json &frames) {
   const Json &opening_angle = parameters.at("pore.opening_angle_deg"); // a tube has none
   return {
       {"case", title.is_null() ? run.parent_path().filename().string() : title.get<std::string>()},
-      {"name", capsule_name(parameters)},
+      {"parts", parts_of_name(parameters)},
       {"directory", run.string()},
       {"walls", !shape.is_null() && shape != "none"},
       {"opening_angle", opening_angle.is_null() ? 0 : opening_angle.get<double>() * std::numbers::pi / 180},
       {"second_mouth", shape == "two-mouths" ? parameters.at("pore.exit_x") : Json()},
       {"series", player_series(run, summary.at("error_estimate"))},
       {"frames", frames}};
+}
+
+// Gives each run its name, of all parts, and a label of those in which the runs of its case differ.
+void name_runs(Json &runs) {
+  const auto joined = [](const std::vector<std::string> &parts) {
+    return fmt::format("{}", fmt::join(parts, ", "));
+  };
+  const auto has = [](const Json &run, const std::string &part) {
+    return std::ranges::find(run.at("parts"), Json(part)) != run.at("parts").end();
+  };
+  for (Json &run : runs) {
+    const std::vector<std::string> parts = run.at("parts");
+    std::vector<std::string> own;
+    std::ranges::copy_if(parts, std::back_inserter(own), [&](const std::string &part) {
+      return !std::ranges::all_of(
+          runs, [&](const Json &other) { return other.at("case") != run.at("case") || has(other, part); });
+    });
+    run["name"] = joined(parts);
+    run["label"] = joined(own.empty() ? parts : own);
+  }
+  for (Json &run : runs)
+    run.erase("parts");
 }
 
 } // namespace
@@ -201,6 +228,7 @@ Json player_data(const std::vector<fs::path> &runs) {
   for (const fs::path &run : runs)
     if (const Json frames = player_frames(run); !frames.empty())
       played.push_back(player_run(run, frames));
+  name_runs(played);
   return {{"fields", fields}, {"quantities", quantities}, {"runs", played}};
 }
 

@@ -118,6 +118,9 @@ expect "the readout has as many decimals as the estimated error leaves" true "$(
 expect "the solid around the pore is drawn" '#c9ced4' "$(script '(() => {
   const pore = document.getElementById("pore"), corner = pore.getContext("2d").getImageData(pore.width - 3, 3, 1, 1).data;
   return "#" + [...corner.slice(0, 3)].map((part) => part.toString(16)).join("") })()')"
+expect "a run is called by what differs in its case" "λ = 1 / λ = 3 / sphere, Skalak C = 1, size 0.7, ε = 0.05, λ = 1, starting at -2.5 and -4.2" \
+  "$(script '[...document.getElementById("run").options].map((option) => option.text).join(" / ").replace(/, \d+ nodes/, "")')"
+expect "what is shown is described" "small: sphere, Skalak C = 1, size 0.7, ε = 0.05, λ = 1" "$(script 'document.getElementById("which").textContent.replace(/, \d+ nodes/, "")')"
 expect "the colours have a scale" true "$(script '(() => {
   const end = (which) => Number(document.getElementById("scale-" + which).textContent);
   return end("low") <= 1 && 1 < end("high") })()')"
