@@ -36,7 +36,7 @@ void require_apart(const MeridianBasis &ahead, const Vector &position_ahead, con
   if (overlap(chain_of(ahead, position_ahead, 2), chain_of(behind, position_behind, 2)))
     throw NumericsFailure(failure_kind::touching,
                           fmt::format("capsules {} and {} touch, at x = {:.4g}", number, number + 1, front),
-                          "try a smaller accuracy, or a larger distance of their starts");
+                          "try a stricter accuracy (a smaller number), or a larger distance of their starts");
 }
 
 } // namespace
