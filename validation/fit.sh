@@ -57,6 +57,8 @@ awk -F, 'NR == 3 { print "x,r" } NR > 3 && $2 > 0 { printf "%.4f,%.4f\n", $2 / 6
   bad '1:1: error: no capsule: no point near the axis behind'
 : | bad '1:1: error: no points in it'
 ends 4 fit fit-example.toml --profile nothing.csv --out bad
+ends 2 fit fit-example.toml --profile . --set 'fit.unknowns=["eps"]'
+grep -q "did you mean 'flow.capillary_number'?" log || fail 'a symbol of an unknown'
 ends 2 fit fit-example.toml --profile . --set 'fit.unknowns=["capsule.radios"]'
 grep -q "1:14: error: 'capsule.radios' is nothing that a fit can find" log || fail 'a misspelt unknown'
 ends 2 fit fit-example.toml --profile profile.csv --set 'fit.unknowns=["capsule.radius","membrane.dilatation"]' \

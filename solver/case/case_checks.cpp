@@ -4,6 +4,7 @@
 #include "case/empty_pore.hpp"
 #include "case/keys.hpp"
 #include "case/physical.hpp"
+#include "case/symbols.hpp"
 #include "case/value_lists.hpp"
 #include <algorithm>
 #include <cmath>
@@ -262,7 +263,9 @@ struct Checks {
   }
 
   static std::string meant(const std::string &word, const std::vector<std::string> &words) {
-    const std::string near = nearest_word(word, words);
+    std::string near = nearest_key(word); // by its symbol
+    if (std::ranges::find(words, near) == words.end())
+      near = nearest_word(word, words);
     return near.empty() ? fmt::format("one of {}", fmt::join(words, ", "))
                         : fmt::format("did you mean '{}'?", near);
   }
