@@ -9,7 +9,7 @@ namespace capsule {
 namespace {
 
 // The integrator tries a shorter step first, and the march fails if none helps.
-constexpr Advice advice{.at_the_wall = "try a smaller accuracy or a finer mesh",
+constexpr Advice advice{.at_the_wall = "try a stricter accuracy (a smaller number) or a finer mesh",
                         .at_the_end = "move pore.exit_x away"};
 
 // The loads of all membranes of a scene.

@@ -18,7 +18,8 @@ constexpr std::array table{
          .what = [](const Instant &) -> std::string {
            return "the membrane touches the wall between its nodes";
          },
-         .advice = "try a smaller accuracy or a finer mesh.membrane"},
+         .advice = "try a stricter accuracy (a smaller number) or a finer mesh.membrane; a capsule that is "
+                   "wider than the pore may need a stronger flow"},
     Stop{.kind = failure_kind::self_contact,
          .holds = [](const Instant &now) { return now.crosses_itself; },
          .what = [](const Instant &) -> std::string { return "the membrane crosses itself"; },
@@ -29,7 +30,7 @@ constexpr std::array table{
              [](const Instant &now) {
                return fmt::format("the volume has drifted by {:.2g} %", 100 * now.row.volume_change);
              },
-         .advice = "try a smaller accuracy (or time.tolerance) or a finer mesh.membrane"},
+         .advice = "try a stricter accuracy or time.tolerance (a smaller number), or a finer mesh.membrane"},
     Stop{.kind = failure_kind::wrinkled,
          .holds =
              [](const Instant &now) {

@@ -36,6 +36,13 @@ std::string stopped_by(const SeriesRow &row, double roughness_limit = wrinkle_ro
 
 BOOST_AUTO_TEST_SUITE(stops_of_a_march)
 
+// "A smaller accuracy" may be read either way.
+BOOST_AUTO_TEST_CASE(advice_has_one_meaning) {
+  for (const Stop &stop : stops())
+    for (const char *unclear : {"smaller accuracy", "larger accuracy", "higher accuracy", "lower accuracy"})
+      BOOST_TEST(std::string(stop.advice).find(unclear) == std::string::npos, stop.kind);
+}
+
 BOOST_AUTO_TEST_CASE(each_reason_stops_and_nothing_else) {
   SeriesRow row = sound_row();
   BOOST_TEST(stopped_by(row) == "");
