@@ -37,6 +37,11 @@ result_in(directory, name) = entry(directory, "  \"".name."\"")
 result(run, name) = result_in(results(run), name)
 error_of(run, name) = entry(results(run), "    \"".name."\"")
 parameter(run, key) = entry(results(run), "    \"".key."\"")
+# The same in SI units, of a case in physical units: result_physical(run, "pressure_drop [Pa]"), "pulse_height [ohm]" of the
+# transit.
+result_physical(run, name) = number(system("awk -v name=".quoted(name)." '{ match($0, /[^ ]/) } \
+  (RSTART == 5 || RSTART == 7) && index($0, \"\\\"\" name \"\\\":\") == RSTART \
+  { sub(/.*: /, \"\"); printf \"%.16e\", $0; exit }' ".quoted(results(run)."/summary.json")." 2>/dev/null"))
 # A word of it: "skalak", "reached".
 entry_word(directory, key) = system("sed -n 's/^".key.": \"\\(.*\\)\",*$/\\1/p' ".quoted(directory."/summary.json"))
 parameter_word(run, key) = entry_word(results(run), "    \"".key."\"")

@@ -1,6 +1,6 @@
 milliseconds = "(1e3 * column(\"time [s]\"))"
-height = entry(results(run(1)), "      \"pulse_height .ohm.\"") / 1e3
-width = entry(results(run(1)), "      \"pulse_width .s.\"") * 1e3
+height = result_physical(run(1), "pulse_height [ohm]") / 1e3
+width = result_physical(run(1), "pulse_width [s]") * 1e3
 
 eval figure("pulse", 12, 8)
 set multiplot layout 2, 1 margins 0.13, 0.98, 0.14, 0.97 spacing 0, 0.05
