@@ -15,7 +15,7 @@ struct Derived {
   std::string key; // "flow.capillary_number"
   double value = 0;
   std::string from;      // "physical.flow_rate"
-  std::string unit = ""; // in words: " tube radii"
+  std::string unit = {}; // in words: " tube radii"
 };
 
 // Whether the case speaks of physical units at all.
