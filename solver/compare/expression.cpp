@@ -266,7 +266,7 @@ private:
     const std::size_t end = text_.find(bracket, at_);
     if (end == std::string_view::npos)
       fail(fmt::format("'{}' is missing", bracket));
-    const std::string inside(text_.substr(at_, end - at_));
+    std::string inside(text_.substr(at_, end - at_));
     at_ = end + 1;
     return inside;
   }
@@ -274,7 +274,7 @@ private:
   std::string unit() {
     if (!take('['))
       return "";
-    const std::string unit = trimmed(up_to(']'));
+    std::string unit = trimmed(up_to(']'));
     if (unit.empty())
       fail("a unit is missing");
     return unit;
