@@ -295,7 +295,7 @@ expect 2 '^error: --to nan: .*finite number, not nan' "$capsule" branch file.tom
 expect 2 'error: is not a case directory' "$capsule" new fresh --like none
 expect 0 'capillary_number' "$capsule" keys
 expect 0 "a viscosity such as '1 mPa.s'" "$capsule" keys
-expect 0 '^ *symbol: epsilon, eps, Ca$' "$capsule" keys
+expect 0 '^ *symbol: epsilon, eps, Ca, ε$' "$capsule" keys
 for command in run steady branch fit check ledger new; do
   expect 0 '^Usage' "$capsule" "$command" --help
   expect 1 'no such word' sh -c "'$capsule' $command --help | grep -E 'TEXT|UINT|FLOAT' || { echo no such word; false; }"

@@ -15,22 +15,22 @@ struct Called {
 
 // Those of laws are in their files. What is usual for several keys, such as rho, is missing on purpose.
 const std::vector<Called> &table() {
-  static const std::vector<Called> called = {{"pore.opening_angle_deg", {"alpha"}},
+  static const std::vector<Called> called = {{"pore.opening_angle_deg", {"alpha", "\u03b1"}},
                                              {"pore.exit_x", {"L_P"}},
                                              {"pore.entrance_distance", {"L_E"}},
                                              {"capsule.radius", {"R_eq"}},
                                              {"capsule.aspect_ratio", {"A/B"}},
-                                             {"capsule.inflation", {"alpha_p"}},
-                                             {"membrane.bending_ratio", {"delta"}},
+                                             {"capsule.inflation", {"alpha_p", "\u03b1_p"}},
+                                             {"membrane.bending_ratio", {"delta", "\u03b4"}},
                                              {"membrane.shear_viscosity", {"mu_s"}},
                                              {"membrane.dilatational_viscosity", {"kappa_s"}},
-                                             {"flow.capillary_number", {"epsilon", "eps", "Ca"}},
-                                             {"flow.viscosity_ratio", {"lambda"}},
+                                             {"flow.capillary_number", {"epsilon", "eps", "Ca", "\u03b5"}},
+                                             {"flow.viscosity_ratio", {"lambda", "\u03bb"}},
                                              {"mesh.membrane", {"N_M"}},
                                              {"mesh.wall", {"N_B"}},
                                              {"mesh.exit", {"N_P"}},
                                              {"physical.tube_radius", {"R_t"}},
-                                             {"physical.viscosity", {"mu"}},
+                                             {"physical.viscosity", {"mu", "\u03bc"}},
                                              {"physical.flow_rate", {"Q"}},
                                              {"physical.shear_modulus", {"G", "G_s"}},
                                              {"physical.young_modulus", {"E_s"}}};
