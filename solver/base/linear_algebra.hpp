@@ -12,3 +12,6 @@ using Matrix = Eigen::MatrixXd;
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 } // namespace capsule
+
+// Compiled once, in linear_algebra.cpp, instead of in every file that solves a system.
+extern template class Eigen::PartialPivLU<capsule::Matrix>;

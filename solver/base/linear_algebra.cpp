@@ -1,0 +1,3 @@
+#include "base/linear_algebra.hpp"
+
+template class Eigen::PartialPivLU<capsule::Matrix>;
