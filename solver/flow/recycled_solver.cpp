@@ -1,4 +1,5 @@
 #include "flow/recycled_solver.hpp"
+#include "base/decompositions.hpp"
 
 namespace capsule {
 namespace {
@@ -34,10 +35,7 @@ Vector continued_solution(const Recycled &recycled, const Vector &position) {
     steps.col(k) = recycled.positions[earlier] - recycled.positions[0];
     changes.col(k) = recycled.solutions[earlier] - recycled.solutions[0];
   }
-  Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition(position.size(), count);
-  decomposition.setThreshold(negligible);
-  decomposition.compute(steps);
-  const Vector shares = decomposition.solve(position - recycled.positions[0]);
+  const Vector shares = least_squares(steps, position - recycled.positions[0], negligible);
   if (!(shares.cwiseAbs().maxCoeff() < far)) // or not a number
     return recycled.solutions[0];
   return recycled.solutions[0] + changes * shares;

@@ -1,4 +1,5 @@
 #include "steady/growth_rates.hpp"
+#include "base/decompositions.hpp"
 #include "base/failure.hpp"
 #include <algorithm>
 #include <complex>
@@ -46,10 +47,8 @@ Eigen::VectorXcd all_growth_rates(const SteadySystem::Linearisation &linear, con
   const auto &[constraints, velocities] = border;
   Matrix motion = small_motion(linear, viscosity_ratio);
   motion -= velocities * (constraints * velocities).partialPivLu().solve(constraints * motion);
-  const Matrix directions = Eigen::HouseholderQR<Matrix>(constraints.transpose()).householderQ();
-  const auto allowed = directions.rightCols(motion.cols() - constraints.rows());
-  Eigen::VectorXcd rates =
-      Eigen::EigenSolver<Matrix>(allowed.transpose() * motion * allowed, false).eigenvalues();
+  const Matrix allowed = orthogonal_to_rows(constraints);
+  Eigen::VectorXcd rates = eigenvalues(allowed.transpose() * motion * allowed);
   std::sort(rates.begin(), rates.end(), grows_more);
   return rates;
 }
@@ -114,11 +113,11 @@ Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns
       break;
     basis.col(size) = next / rest;
   }
-  const Eigen::EigenSolver<Matrix> eigen(hessenberg.topLeftCorner(size, size));
+  const EigenPairs eigen = eigenpairs(hessenberg.topLeftCorner(size, size));
   std::vector<std::complex<double>> rates;
   for (Eigen::Index k = 0; k < size; ++k) {
-    const std::complex<double> value = eigen.eigenvalues()[k];
-    const double residual = hessenberg(size, size - 1) * std::abs(eigen.eigenvectors()(size - 1, k));
+    const std::complex<double> value = eigen.values[k];
+    const double residual = hessenberg(size, size - 1) * std::abs(eigen.vectors(size - 1, k));
     if (value.real() > 0 && residual < visible * std::abs(value))
       return all_growth_rates(linear, border, viscosity_ratio);
     if (residual < converged * std::abs(value))

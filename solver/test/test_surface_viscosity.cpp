@@ -1,11 +1,11 @@
 // Friction in the membrane: its rates of stretch against differences of the stretches, and where the power goes.
+#include "base/decompositions.hpp"
 #include "flow/flow.hpp"
 #include "geometry/quadrature.hpp"
 #include "membrane/load.hpp"
 #include "membrane/surface_viscosity.hpp"
 #include "membranes.hpp"
 #include "scene/make_flow.hpp"
-#include <Eigen/Eigenvalues>
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 
@@ -151,9 +151,7 @@ BOOST_AUTO_TEST_CASE(friction_resists_every_motion) {
         SurfaceFriction(flow.mesh().parts[0].at_panels, nodal_area(membrane, position), position, {1, 1})
             .matrix();
     const Eigen::VectorXcd values =
-        Eigen::EigenSolver<Matrix>(nodal_layers(flow.interact(position, Layers::both)).single * friction,
-                                   false)
-            .eigenvalues();
+        eigenvalues(nodal_layers(flow.interact(position, Layers::both)).single * friction);
     BOOST_TEST(values.real().minCoeff() > -1e-6);
     BOOST_TEST(values.imag().cwiseAbs().maxCoeff() < 1e-3 * values.real().maxCoeff());
   }

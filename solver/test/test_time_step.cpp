@@ -1,4 +1,5 @@
 // Orders of the explicit schemes on a real capsule, their interpolants, and their limits of stability.
+#include "base/decompositions.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
 #include "motion/time_step.hpp"
@@ -83,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_step_beyond_stability_is_a_failure) {
   for (const Scheme scheme : {Scheme::euler, Scheme::rk4}) {
     Case physics = stretched_capsule(1);
     const double fastest =
-        make_dynamics(physics).jacobian(make_scene(physics).start).eigenvalues().cwiseAbs().maxCoeff();
+        eigenvalues(make_dynamics(physics).jacobian(make_scene(physics).start)).cwiseAbs().maxCoeff();
     physics.time.scheme = scheme;
     physics.time.step = 1.05 * stability_limit(scheme) / fastest;
     physics.until.time = 1;
