@@ -91,8 +91,8 @@ bench: build
 	done
 	@cmake --build build --target study-speed-accuracy
 
-lint: build
-	@cmake/lint.sh build
+lint: setup
+	@cmake/configure.sh lint build-lint && cmake/lint.sh build-lint
 
 sanitize: setup
 	@cmake/configure.sh sanitize build-sanitize && cmake --build --preset sanitize && ctest --preset sanitize

@@ -1,8 +1,9 @@
 #!/bin/sh
 # clang-format and clang-tidy (both of LLVM 14, Debian 12's) over the sources; says so where they are not installed.
 #   cmake/lint.sh                     clang-format, seconds
-#   cmake/lint.sh BUILD [PATTERN]     and clang-tidy, with the compile commands of this build directory, on the files whose
-#                                     paths fit the pattern, or all (20 s of one core each)
+#   cmake/lint.sh BUILD [PATTERN]     and clang-tidy, with the compile commands of this directory, which the preset
+#                                     `lint` has configured, on the files whose paths fit the pattern, or all (20 s of one
+#                                     core each)
 set -eu
 cd "$(dirname "$0")/.."
 for tool in clang-format clang-tidy run-clang-tidy; do
