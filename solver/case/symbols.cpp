@@ -37,8 +37,10 @@ const std::vector<Called> &table() {
   return called;
 }
 
-// Without underscores, in lower case: "R_eq" and "req" are the same.
+// Without underscores, in lower case: "R_eq" and "req" are the same. Single letters differ: A is no a.
 std::string plain(std::string_view symbol) {
+  if (symbol.size() == 1)
+    return std::string(symbol);
   std::string letters;
   for (const char c : symbol)
     if (c != '_')
