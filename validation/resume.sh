@@ -30,20 +30,20 @@ wait "$process" && fail 'survived being killed'
 cp -r killed at_the_kill
 "$capsule" run case.toml --out killed
 
-# Stopped again and again in the middle of its legs: each time it gets further, at last into the march that its errors are
+# Stopped again and again: each time it gets further, at last into the march that its errors are
 # estimated by.
-short_case | sed 's/^accuracy.*/accuracy = 1e-5/' >legs.toml
-printf 'until.time = 1\nmesh.membrane = 200\n' >>legs.toml
-"$capsule" run legs.toml --out legs
-limit=$(sed -n 's/.*"wall_seconds": \([0-9.]*\).*/\1/p' legs/summary.json | awk '{ print 0.1 + $1 / 8 }')
-numbers legs >expected
+short_case | sed 's/^accuracy.*/accuracy = 1e-5/' >stops.toml
+printf 'until.time = 1\nmesh.membrane = 200\n' >>stops.toml
+"$capsule" run stops.toml --out stops
+limit=$(sed -n 's/.*"wall_seconds": \([0-9.]*\).*/\1/p' stops/summary.json | awk '{ print 0.1 + $1 / 8 }')
+numbers stops >expected
 calls=0
 code=130
 while [ "$code" -eq 130 ]; do
   calls=$((calls + 1))
   [ "$calls" -lt 60 ] || fail 'a march does not get further'
   code=0
-  "$capsule" run legs.toml --out parts --time-limit "$limit" || code=$?
+  "$capsule" run stops.toml --out parts --time-limit "$limit" || code=$?
 done
 [ "$code" -eq 0 ] && [ "$calls" -gt 2 ] || fail "ended with $code after $calls calls"
 numbers parts | cmp - expected || fail 'a march in parts is another one'

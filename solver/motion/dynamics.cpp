@@ -66,13 +66,19 @@ Dynamics standard_dynamics(const Case &physics) {
   dynamics.report = [type, flow, f, recycled](const Vector &position, bool regular) {
     const Interaction interaction = flow->interact(place_in_flow(type, position));
     const Vector load = f(position);
-    RecycledFlow copy = *recycled;
-    FlowState state = flow->solve(interaction, load, copy.velocity);
-    state.pressure_shares = flow->reciprocal_pressure_drops(interaction, load, state, copy.traction);
+    RecycledFlow copy;
+    if (!regular)
+      copy = *recycled;
+    RecycledFlow &used = regular ? *recycled : copy;
+    FlowState state = flow->solve(interaction, load, used.velocity);
+    state.pressure_shares = flow->reciprocal_pressure_drops(interaction, load, state, used.traction);
     state.pressure_drop_reciprocal = state.pressure_shares.sum();
-    if (regular)
-      recycled->traction = std::move(copy.traction);
     return state;
+  };
+  dynamics.load = f;
+  dynamics.load_jacobian = [loads](const Vector &position) { return loads.frozen_jacobian(position); };
+  dynamics.mobility = [flow, recycled](const Vector &position) {
+    return flow->mobility(flow->interact(position), recycled->velocity);
   };
   dynamics.jacobian = [flow, loads, recycled](const Vector &position) -> Matrix {
     const Interaction interaction = flow->interact(position);

@@ -15,12 +15,13 @@ struct Dynamics {
   std::shared_ptr<const Scene> scene;
   // Throw NumericsFailure when the shape is no capsule in the pore any more.
   std::function<FlowState(const Vector &position)> flow;
-  // The same with the second route to the pressure drop. Later flows do not depend on it. Reports of regular rows speed
-  // each other up; reports of other rows change no digit of them.
+  // The same with the second route to the pressure drop. Those of regular rows are flows like others; no later flow or
+  // report depends on those of other rows.
   std::function<FlowState(const Vector &position, bool regular)> report;
-  // Only of the standard preset: d velocity/d position with frozen hydrodynamic mobility and the exact
-  // derivative of the membrane's load and friction.
-  std::function<Matrix(const Vector &position)> jacobian;
+  // Only of the standard preset: the membranes' load, f of flow.hpp, and its derivative with frozen nodal areas; d velocity/
+  // d load, the mobility; and d velocity/d position with frozen mobility and the exact derivative of load and friction.
+  std::function<Vector(const Vector &position)> load;
+  std::function<Matrix(const Vector &position)> load_jacobian, mobility, jacobian;
   // What earlier shapes have left behind to speed up the next one. A march empties it where it begins, so that it depends
   // on its start alone.
   std::shared_ptr<RecycledFlow> recycled = std::make_shared<RecycledFlow>();

@@ -3,6 +3,7 @@
 #include "case/case.hpp"
 #include "geometry/gap.hpp"
 #include "motion/dynamics.hpp"
+#include "motion/split_bdf.hpp"
 #include "motion/stations.hpp"
 #include "motion/time_step.hpp"
 #include "observe/gauge.hpp"
@@ -13,17 +14,18 @@
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace capsule {
 namespace {
 
 constexpr int rows_in_time = 200; // of a march that ends at a time
-constexpr int steps_of_a_leg = 250;
-constexpr int explicit_steps_of_a_leg = 1000;
+constexpr int steps_between_checks = 250;
+constexpr int steps_between_stability_checks = 1000;
 constexpr Station end_station{
     .value = 0, .profile = true, .regular = true, .end = true}; // not at a given place
-constexpr double shortest_leg = 1e-4; // a march that gains less time than this in one leg is given up
+constexpr double least_gain = 1e-4; // of time; a march that gains less between two checks is given up
 
 // Integrates, records what is due, and stops.
 class March {
@@ -39,20 +41,19 @@ public:
       gauges_.emplace_back(dynamics_.scene->pore, dynamics_.scene->membrane_of(k),
                            input.output.resistance ? std::optional(conductor) : std::nullopt);
     record_.followers.resize(rows_.size() - 1);
-    // Not the centre of the start's shape, whose rounding may lie on either side of a place that is asked for.
-    const double centre = record_.steps > 0 ? centre_of(0, record_.position) : input.capsule.start_x;
     const UntilSpec &until = input.until;
     const auto profiles_every = input.output.profiles_every;
-    x_g_stations_ =
-        stations(centre, row_spacing, until.last_x_g && !until.x_g ? end_of_way(input.pore) : until.x_g,
-                 input.output.profiles_at_x_g, until.by_place() ? profiles_every : std::nullopt);
+    // From the place that the case names: the rounding of the shape's centre may lie on either side of a station.
+    x_g_stations_ = stations(input.capsule.start_x, row_spacing,
+                             until.last_x_g && !until.x_g ? end_of_way(input.pore) : until.x_g,
+                             input.output.profiles_at_x_g, until.by_place() ? profiles_every : std::nullopt);
     if (until.last_x_g && !until.x_g)
       for (Station &station : x_g_stations_)
         station.end = false;
     const double end = until.time.value_or(std::numeric_limits<double>::infinity());
     time_stations_ =
-        stations(record_.time, until.by_place() ? end : end / rows_in_time, until.time,
-                 input.output.profiles_at_time, until.by_place() ? std::nullopt : profiles_every);
+        stations(0, until.by_place() ? end : end / rows_in_time, until.time, input.output.profiles_at_time,
+                 until.by_place() ? std::nullopt : profiles_every);
   }
 
   Outcome run() {
@@ -60,8 +61,8 @@ public:
     try {
       if (!started()) {
         record_.position = dynamics_.scene->start;
-        record(0, dynamics_.scene->start, {.value = 0, .profile = true, .regular = true, .end = false});
-        record_.leg = {};
+        record(0, dynamics_.scene->start, flow_of_row(dynamics_.scene->start, true),
+               {.value = 0, .profile = true, .regular = true, .end = false});
       }
       outcome.status = input_.time.scheme == Scheme::bdf ? run_bdf() : run_explicit();
     } catch (const NumericsFailure &failure) {
@@ -73,8 +74,11 @@ public:
       outcome.message = fmt::format("{} (after t = {:.6g}, x_g = {:.6g}); {}", failure.what(), last.time,
                                     last.x_g, failure.advice);
     }
-    if (outcome.status != Status::interrupted)
+    if (outcome.status != Status::interrupted) {
       record_.steps = steps_;
+      record_.memory = {};
+      record_.recycled = {};
+    }
     outcome.last = record_;
     if (const auto empty = gauges_[0].empty_resistance())
       outcome.further["empty_resistance"] = *empty;
@@ -95,78 +99,47 @@ private:
 
   bool started() const { return record_.position.size() > 0; }
 
-  void begin_leg() {
-    *dynamics_.recycled = {};
-    asked_ = 0;
-    repeats_ = !record_.leg.answers.empty();
-    repeated_rows_ = record_.leg.rows;
+  // A new integrator of the march, or one that goes on from where another was; what the flow left behind there is restored
+  // after the integrator has computed its matrices.
+  template <class Make>
+  auto begin(const Make &make) {
+    const bool resumed = !record_.memory.past.empty();
+    auto integrator = make();
+    if (resumed)
+      *dynamics_.recycled = std::exchange(record_.recycled, {});
+    record_.memory = {};
+    return integrator;
   }
 
-  // What the integrator asks for: while it repeats a leg what it was answered before, then what is computed.
-  template <class Compute>
-  Vector answer(const Compute &compute) {
-    std::vector<Vector> &answers = record_.leg.answers;
-    if (asked_ == answers.size()) {
-      if (repeats_)
-        *dynamics_.recycled = record_.leg.recycled;
-      repeats_ = false;
-      answers.push_back(compute());
-    }
-    return answers[asked_++];
-  }
-
-  // The same of the flow, or nothing, and why.
-  template <class Compute>
-  Vector answer_if_any(const Compute &compute) {
-    return answer([&]() -> Vector {
-      try {
-        return compute();
-      } catch (const NumericsFailure &failure) {
-        cause_.emplace(failure);
-        return {};
-      }
-    });
-  }
-
-  // While a leg is repeated only the Jacobian that is in use at its end is computed: no correction needs the others.
-  bool jacobian_at(const Vector &position, Matrix &jacobian) {
-    if (repeats_ && asked_ < record_.leg.answers.size())
-      jacobian = asked_ == record_.leg.jacobian ? dynamics_.jacobian(position)
-                                                : Matrix::Zero(position.size(), position.size());
-    const Vector found = answer_if_any([&]() -> Vector {
-      jacobian = dynamics_.jacobian(position);
-      if (!jacobian.allFinite())
-        return {};
-      record_.leg.jacobian = asked_;
-      return Vector::Ones(1);
-    });
-    return found.size() > 0;
-  }
-
-  void save() {
-    if (!repeats_)
-      record_.leg.recycled = *dynamics_.recycled;
-    if (control_.save)
-      control_.save(record_);
+  template <class Integrator>
+  void save(const Integrator &integrator) {
+    if (!control_.save)
+      return;
+    record_.memory = integrator.memory();
+    record_.recycled = *dynamics_.recycled;
+    control_.save(record_);
   }
 
   Status run_explicit() {
-    const auto rate = [this](const Vector &position) {
-      return answer([&] { return dynamics_.flow(position).velocity; });
-    };
+    const auto rate = [this](const Vector &position) { return dynamics_.flow(position).velocity; };
     last_accepted_ = record_.position;
-    for (;;) {
-      begin_leg();
-      require_stable_step(record_.position);
-      try {
-        ExplicitIntegrator integrator(input_.time.scheme, rate, record_.time, record_.position,
-                                      input_.time.step);
-        if (const auto status = run_leg(integrator, explicit_steps_of_a_leg))
-          return *status;
-      } catch (const NumericsFailure &failure) {
-        require_stable_step(last_accepted_);
-        throw NumericsFailure(failure.kind, failure.what(), failure.advice + ", or a shorter time.step");
-      }
+    try {
+      ExplicitIntegrator integrator = begin([&] {
+        const bool resumed = !record_.memory.past.empty();
+        return ExplicitIntegrator(input_.time.scheme, rate,
+                                  resumed ? record_.memory.past[0]
+                                          : StepMemory::Point{record_.time, record_.position, {}, {}},
+                                  input_.time.step);
+      });
+      return run_steps(integrator, [&] {
+        if (steps_ % steps_between_stability_checks == 0)
+          require_stable_step(record_.position);
+        integrator.step();
+        return StepEnd::on_the_way;
+      });
+    } catch (const NumericsFailure &failure) {
+      require_stable_step(last_accepted_);
+      throw NumericsFailure(failure.kind, failure.what(), failure.advice + ", or a shorter time.step");
     }
   }
 
@@ -188,58 +161,74 @@ private:
 
   Status run_bdf() {
     const double tolerance = choose_resolution(input_).time_tolerance;
-    const Equations equations{
-        [&](const Vector &position, Vector &rate) {
-          rate = answer_if_any([&] { return dynamics_.flow(position).velocity; });
-          return rate.size() > 0;
-        },
-        [&](const Vector &position, Matrix &jacobian) { return jacobian_at(position, jacobian); },
-        [&](const std::function<Vector()> &solve) { return answer(solve); }};
+    // Rows limit the steps of both marches: of the same order both would have the same error there.
+    const std::size_t highest_order = role_ == Role::main ? 5 : 3;
+    const SplitEquations equations{dynamics_.load,
+                                   [&](const Vector &position, StepEnd end) {
+                                     if (end == StepEnd::on_the_way)
+                                       return dynamics_.flow(position).velocity;
+                                     at_target_ = {position, flow_of_row(position, true)};
+                                     return at_target_.flow.velocity;
+                                   },
+                                   dynamics_.mobility, dynamics_.load_jacobian,
+                                   [this](const Vector &position) { return centre_of(0, position); }};
+    SplitBdf integrator = begin([&] {
+      return record_.memory.past.empty()
+                 ? SplitBdf(equations, record_.time, record_.position, tolerance, highest_order)
+                 : SplitBdf(equations, record_.memory, tolerance, highest_order);
+    });
+    return run_steps(integrator, [&] { return integrator.step(next_target()); });
+  }
+
+  // The first regular station that is still to come.
+  static std::size_t first_regular(const std::vector<Station> &stations, std::size_t from) {
+    while (from < stations.size() && !stations[from].regular)
+      ++from;
+    return from;
+  }
+  std::size_t target_x_g() const { return first_regular(x_g_stations_, record_.next_x_g); }
+  std::size_t target_time() const { return first_regular(time_stations_, record_.next_time); }
+
+  Target next_target() const {
+    Target target;
+    if (const std::size_t k = target_time(); k < time_stations_.size())
+      target.time = time_stations_[k].value;
+    if (const std::size_t k = target_x_g(); k < x_g_stations_.size())
+      target.place = x_g_stations_[k].value;
+    return target;
+  }
+
+  // Steps until the end. `advance` makes one.
+  template <class Integrator, class Advance>
+  Status run_steps(Integrator &integrator, const Advance &advance) {
     for (;;) {
-      begin_leg();
-      try {
-        BdfIntegrator integrator(equations, record_.time, record_.position, tolerance);
-        if (const auto status = run_leg(integrator, steps_of_a_leg))
-          return *status;
-      } catch (const NumericsFailure &failure) {
-        if (failure.kind == failure_kind::step && cause_)
-          throw NumericsFailure(*cause_);
-        throw;
-      }
+      const bool interrupted = control_.interrupted && control_.interrupted();
+      if (interrupted || (control_.wants_checkpoint && control_.wants_checkpoint()))
+        save(integrator);
+      if (interrupted)
+        return Status::interrupted;
+      const StepEnd end = advance();
+      ++steps_;
+      if (record_due(integrator, end))
+        return Status::reached;
+      record_.time = integrator.time();
+      record_.position = integrator.state_at(record_.time);
+      record_.steps = steps_;
+      if (steps_ % steps_between_checks == 0)
+        check_between_rows();
     }
   }
 
-  // One leg of steps. The integrator starts afresh with each. Empty: not at the end yet.
-  template <class Integrator>
-  std::optional<Status> run_leg(Integrator &integrator, int steps) {
-    for (int k = 0; k < steps; ++k) {
-      const bool interrupted = control_.interrupted && control_.interrupted();
-      if (interrupted || (control_.wants_checkpoint && control_.wants_checkpoint()))
-        save();
-      if (interrupted)
-        return Status::interrupted;
-      cause_.reset();
-      integrator.step();
-      ++steps_;
-      if (record_due(integrator))
-        return Status::reached;
-    }
-    const double gone = integrator.time() - record_.time;
-    record_.time = integrator.time();
-    record_.position = integrator.state_at(integrator.time());
-    record_.steps = steps_;
-    record_.leg = {};
+  void check_between_rows() {
     SeriesRow here; // only the film is measured between rows
     here.min_film = smallest_film(record_.position);
     throw_if_stopped({.row = here});
-    if (input_.time.scheme == Scheme::bdf && gone < shortest_leg)
+    const double gain = record_.time - std::exchange(record_.checked, record_.time);
+    if (input_.time.scheme == Scheme::bdf && gain < least_gain)
       throw NumericsFailure(failure_kind::unresolved,
                             fmt::format("the last {} steps lead on by {:.1g} only, with a film of {:.2g}",
-                                        steps, gone, here.min_film),
+                                        steps_between_checks, gain, here.min_film),
                             "try a finer mesh.membrane");
-    if (control_.save)
-      control_.save(record_);
-    return std::nullopt;
   }
 
   // When the membrane came to what it bears in the last step, if it did.
@@ -271,46 +260,54 @@ private:
 
   // Records the rows that fall into the last step, in order of time; true at the end.
   template <class Integrator>
-  bool record_due(const Integrator &integrator) {
+  bool record_due(const Integrator &integrator, StepEnd end) {
     const double now = integrator.time(), before = integrator.previous_time();
     const double burst = burst_time(integrator), last = arrival_of_last(integrator);
+    const std::size_t reached_time = end == StepEnd::at_time ? target_time() : time_stations_.size();
+    const std::size_t reached_x_g = end == StepEnd::at_place ? target_x_g() : x_g_stations_.size();
     for (;;) {
       double due = std::numeric_limits<double>::infinity();
       const Station *station = nullptr;
-      bool in_time = false;
-      if (next_time_ < time_stations_.size() && time_stations_[next_time_].value <= now) {
-        station = &time_stations_[next_time_];
+      bool in_time = false, reached = false; // by the step itself
+      if (record_.next_time < time_stations_.size() && time_stations_[record_.next_time].value <= now) {
+        station = &time_stations_[record_.next_time];
         due = station->value;
         in_time = true;
+        reached = record_.next_time == reached_time;
       }
-      if (next_x_g_ < x_g_stations_.size()) {
+      if (record_.next_x_g < x_g_stations_.size()) {
+        const bool here = record_.next_x_g == reached_x_g;
         const auto ahead = [&](double time) {
-          return centre_of(0, integrator.state_at(time)) - x_g_stations_[next_x_g_].value;
+          return centre_of(0, integrator.state_at(time)) - x_g_stations_[record_.next_x_g].value;
         };
-        if (ahead(now) >= 0) {
-          const double crossing = crossing_time(ahead, before, now);
+        if (here || ahead(now) >= 0) {
+          const double crossing = here ? now : crossing_time(ahead, before, now);
           if (crossing < due) {
-            station = &x_g_stations_[next_x_g_];
+            station = &x_g_stations_[record_.next_x_g];
             due = crossing;
             in_time = false;
+            reached = here;
           }
         }
       }
       if (last <= now && last <= due) {
         station = &end_station;
         due = last;
+        reached = false;
       }
       if (burst <= now && burst <= due) {
-        record(burst, integrator.state_at(burst), end_station, true);
+        const Vector position = integrator.state_at(burst);
+        record(burst, position, flow_of_row(position, true), end_station, true);
         return true;
       }
       if (station == nullptr)
         return false;
-      record(due, integrator.state_at(due), *station);
-      ++(in_time ? next_time_ : next_x_g_);
+      const Vector position = reached ? at_target_.position : integrator.state_at(due);
+      record(due, position, reached ? at_target_.flow : flow_of_row(position, station->regular), *station);
+      ++(in_time ? record_.next_time : record_.next_x_g);
       if (station->end) {
         record_.time = due;
-        record_.position = integrator.state_at(due);
+        record_.position = position;
         return true;
       }
     }
@@ -336,16 +333,15 @@ private:
     return time;
   }
 
-  void record(double time, const Vector &position, const Station &station, bool bursts = false) {
-    if (repeated_rows_ > 0) { // it is in the series
-      --repeated_rows_;
-      last_accepted_ = position;
-      return;
-    }
-    // Nobody looks at the companion's second pressure drop, but at each capsule's share of it.
+  // Nobody looks at the companion's second pressure drop, but at each capsule's share of it.
+  FlowState flow_of_row(const Vector &position, bool regular) const {
+    return role_ == Role::companion && rows_.size() == 1 ? dynamics_.flow(position)
+                                                         : dynamics_.report(position, regular);
+  }
+
+  void record(double time, const Vector &position, const FlowState &state, const Station &station,
+              bool bursts = false) {
     const bool alone = rows_.size() == 1;
-    const FlowState state = role_ == Role::companion && alone ? dynamics_.flow(position)
-                                                              : dynamics_.report(position, station.regular);
     std::vector<SeriesRow> rows;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const Vector here = part(position, k), velocity = part(state.velocity, k);
@@ -366,7 +362,6 @@ private:
         (follower ? follower->profiles : record_.profiles)
             .push_back(gauges_[k].profile(time, here, velocity));
     }
-    ++record_.leg.rows;
     if (control_.progress)
       control_.progress(rows[0], steps_);
     for_each_capsule(*dynamics_.scene, [&](std::size_t k) {
@@ -410,14 +405,13 @@ private:
   std::vector<std::vector<Eigen::Index>> rows_; // of each capsule in a position
   std::vector<Gauge> gauges_;
   Checkpoint record_;
-  long steps_;                           // with those of the present leg
-  bool repeats_ = false;                 // the present leg, from its beginning to where it was saved
-  std::size_t asked_ = 0;                // by the integrator, in the present leg
-  std::size_t repeated_rows_ = 0;        // that are still to come
-  Vector last_accepted_;                 // position of the last row at which nothing stopped the march
-  std::optional<NumericsFailure> cause_; // why a shape that the present step tried has no flow
+  long steps_;           // with those since the last checkpoint
+  Vector last_accepted_; // position of the last row at which nothing stopped the march
+  struct {
+    Vector position;
+    FlowState flow;
+  } at_target_; // where the present step ends, if at a target
   std::vector<Station> x_g_stations_, time_stations_;
-  std::size_t next_x_g_ = 0, next_time_ = 0;
 };
 
 } // namespace

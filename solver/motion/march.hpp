@@ -1,6 +1,6 @@
 #pragma once
 // One march of a case, from a start or a checkpoint until the case's end or a reason to stop (stops.hpp). It can be saved
-// after each step, and goes on from there bit by bit as if it had never been interrupted (Leg in outcome.hpp). Failures of the
+// after each step, and goes on from there bit by bit as if it had never been interrupted (step_memory.hpp). Failures of the
 // numerics are in the outcome; throws InputError if the case's pore or start cannot be built.
 #include "motion/stops.hpp"
 #include "observe/outcome.hpp"

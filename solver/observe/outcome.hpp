@@ -3,6 +3,7 @@
 // follows and interrupts it.
 #include "flow/recycled_solver.hpp"
 #include "observe/records.hpp"
+#include "observe/step_memory.hpp"
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -23,26 +24,19 @@ constexpr const char *word_of(Status status) {
   return place < status_words.size() ? status_words[place] : "interrupted";
 }
 
-// What a march has done since an integrator began. The integrator itself cannot be saved; but one that begins there again
-// and is answered the same takes the same steps, bit by bit, without a flow being computed.
-struct Leg {
-  std::vector<Vector>
-      answers; // to all that it has asked for, in this order; empty ones where there was no answer
-  std::size_t jacobian = 0; // which of them stands for the Jacobian that is in use
-  std::size_t rows = 0;     // of the series, recorded since it began
-  RecycledFlow recycled;    // what the flow has left behind
-};
-
 // Everything that a march needs to go on.
 struct Checkpoint {
-  double time = 0; // here, and in `position` and `steps`: where the leg begins
+  double time = 0;
   Vector position; // empty: not started
   long steps = 0;
   std::vector<SeriesRow> series;
   std::vector<Profile> profiles;
   std::vector<CapsuleRecord> followers = {}; // of the capsules behind the leading one, at the same times
-  Leg leg = {};
-  std::vector<Checkpoint> companion = {}; // of a march that has reached its end: the coarser one beside it
+  StepMemory memory = {};                    // of the integrator; empty where it has not begun
+  RecycledFlow recycled = {};                // what the flow has left behind
+  std::size_t next_x_g = 0, next_time = 0;   // which of the march's stations come next
+  double checked = 0;                        // time up to which the march is known to lead on
+  std::vector<Checkpoint> companion = {};    // of a march that has reached its end: the coarser one beside it
 };
 
 // A steady state on a branch.
@@ -75,8 +69,8 @@ struct Control {
   std::function<void(const SeriesRow &, long steps)> progress; // after each recorded row
   std::function<bool()> interrupted;                           // asked after each step
   std::function<bool()> wants_checkpoint;                      // asked after each step
-  std::function<void(const Checkpoint &)> save; // where either is answered by yes, and after each leg
-  std::function<void(double work)> spend;       // before each part of a search for a steady state
+  std::function<void(const Checkpoint &)> save;                // where either is answered by yes
+  std::function<void(double work)> spend; // before each part of a search for a steady state
 };
 
 // Thrown where the caller has asked to stop.

@@ -144,6 +144,44 @@ std::vector<Profile> profiles_of(const Json &json) {
   return profiles;
 }
 
+Json to_json(const StepMemory &memory) {
+  Json past = Json::array();
+  for (const StepMemory::Point &point : memory.past)
+    past.push_back({{"time", exact(point.time)},
+                    {"state", packed(point.state.data(), point.state.size())},
+                    {"load", packed(point.load.data(), point.load.size())},
+                    {"rate", packed(point.rate.data(), point.rate.size())}});
+  const auto frozen = [](const StepMemory::Frozen &matrix) -> Json {
+    return {{"at", packed(matrix.at.data(), matrix.at.size())}, {"age", matrix.age}};
+  };
+  return {{"past", past},
+          {"order", memory.order},
+          {"steps_at_order", memory.steps_at_order},
+          {"step", exact(memory.step)},
+          {"left_over", exact(memory.left_over)},
+          {"mobility", frozen(memory.mobility)},
+          {"load_jacobian", frozen(memory.load_jacobian)},
+          {"factored", exact(memory.factored)}};
+}
+
+StepMemory step_memory_of(const Json &json) {
+  StepMemory memory;
+  for (const Json &point : json.at("past"))
+    memory.past.push_back({exact(point.at("time")), unpacked(point.at("state")), unpacked(point.at("load")),
+                           unpacked(point.at("rate"))});
+  const auto frozen = [](const Json &matrix) -> StepMemory::Frozen {
+    return {unpacked(matrix.at("at")), matrix.at("age")};
+  };
+  memory.order = json.at("order");
+  memory.steps_at_order = json.at("steps_at_order");
+  memory.step = exact(json.at("step"));
+  memory.left_over = exact(json.at("left_over"));
+  memory.mobility = frozen(json.at("mobility"));
+  memory.load_jacobian = frozen(json.at("load_jacobian"));
+  memory.factored = exact(json.at("factored"));
+  return memory;
+}
+
 Json to_json(const Checkpoint &checkpoint) {
   Json json;
   json["time"] = exact(checkpoint.time);
@@ -155,12 +193,12 @@ Json to_json(const Checkpoint &checkpoint) {
   for (const CapsuleRecord &follower : checkpoint.followers)
     json["followers"].push_back(
         {{"series", series_json(follower.series)}, {"profiles", profiles_json(follower.profiles)}});
-  const Leg &leg = checkpoint.leg;
-  json["leg"] = {{"rows", leg.rows},
-                 {"jacobian", leg.jacobian},
-                 {"answers", packed(leg.answers)},
-                 {"velocity", packed(leg.recycled.velocity)},
-                 {"traction", packed(leg.recycled.traction)}};
+  json["memory"] = to_json(checkpoint.memory);
+  json["velocity"] = packed(checkpoint.recycled.velocity);
+  json["traction"] = packed(checkpoint.recycled.traction);
+  json["next_x_g"] = checkpoint.next_x_g;
+  json["next_time"] = checkpoint.next_time;
+  json["checked"] = exact(checkpoint.checked);
   json["companion"] = Json::array();
   for (const Checkpoint &companion : checkpoint.companion)
     json["companion"].push_back(to_json(companion));
@@ -176,11 +214,11 @@ Checkpoint checkpoint_of(const Json &json) {
   checkpoint.profiles = profiles_of(json.at("profiles"));
   for (const Json &follower : json.at("followers"))
     checkpoint.followers.push_back({series_of(follower.at("series")), profiles_of(follower.at("profiles"))});
-  const Json &leg = json.at("leg");
-  checkpoint.leg = {unpacked_list(leg.at("answers")),
-                    leg.at("jacobian"),
-                    leg.at("rows"),
-                    {unpacked_recycled(leg.at("velocity")), unpacked_recycled(leg.at("traction"))}};
+  checkpoint.memory = step_memory_of(json.at("memory"));
+  checkpoint.recycled = {unpacked_recycled(json.at("velocity")), unpacked_recycled(json.at("traction"))};
+  checkpoint.next_x_g = json.at("next_x_g");
+  checkpoint.next_time = json.at("next_time");
+  checkpoint.checked = exact(json.at("checked"));
   for (const Json &companion : json.at("companion"))
     checkpoint.companion.push_back(checkpoint_of(companion));
   return checkpoint;

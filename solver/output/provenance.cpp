@@ -14,7 +14,6 @@
 #include <gsl/gsl_version.h>
 #include <regex>
 #include <sstream>
-#include <sundials/sundials_config.h>
 
 namespace capsule {
 namespace {
@@ -72,7 +71,6 @@ std::string provenance_text(const Case &physics, const Effort &effort, const Tas
       {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"OpenBLAS", openblas_get_config()},
       {"GSL", GSL_VERSION},
-      {"SUNDIALS", SUNDIALS_VERSION},
       {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)}};
   json["processor"] = processor_name();
   json["started"] = effort.started;

@@ -54,12 +54,22 @@ inline Checkpoint random_checkpoint() {
     checkpoint.profiles.push_back(profile);
   }
   checkpoint.followers = {{{checkpoint.series[4], checkpoint.series[1]}, {checkpoint.profiles[1]}}, {}};
-  checkpoint.leg.answers = {random_vector(24, random), {}, random_vector(1, random)};
-  checkpoint.leg.jacobian = 2;
-  checkpoint.leg.rows = 3;
-  checkpoint.leg.recycled.velocity.inverse = random_vector(25, random).reshaped(5, 5);
-  checkpoint.leg.recycled.velocity.positions = {random_vector(4, random)};
-  checkpoint.leg.recycled.traction.solutions = {random_vector(4, random), random_vector(2, random)};
+  checkpoint.memory.past = {
+      {number(), random_vector(24, random), random_vector(24, random), random_vector(24, random)},
+      {number(), random_vector(24, random), {}, random_vector(24, random)}};
+  checkpoint.memory.order = 3;
+  checkpoint.memory.steps_at_order = 2;
+  checkpoint.memory.step = number();
+  checkpoint.memory.left_over = number();
+  checkpoint.memory.mobility = {random_vector(24, random), 7};
+  checkpoint.memory.load_jacobian = {random_vector(24, random), 5};
+  checkpoint.memory.factored = number();
+  checkpoint.recycled.velocity.inverse = random_vector(25, random).reshaped(5, 5);
+  checkpoint.recycled.velocity.positions = {random_vector(4, random)};
+  checkpoint.recycled.traction.solutions = {random_vector(4, random), random_vector(2, random)};
+  checkpoint.next_x_g = 4;
+  checkpoint.next_time = 6;
+  checkpoint.checked = number();
   checkpoint.companion.resize(1);
   checkpoint.companion[0].position = random_vector(22, random);
   return checkpoint;

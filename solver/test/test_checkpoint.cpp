@@ -52,14 +52,30 @@ BOOST_AUTO_TEST_CASE(checkpoint_comes_back_bit_by_bit) {
   const auto equal = [](const std::vector<Vector> &a, const std::vector<Vector> &b) {
     return std::ranges::equal(a, b, [](const Vector &x, const Vector &y) { return x == y; });
   };
-  BOOST_TEST(equal(read.leg.answers, written.leg.answers));
-  BOOST_TEST(read.leg.jacobian == 2u);
-  BOOST_TEST(read.leg.rows == 3u);
-  const auto &[velocity, traction] = read.leg.recycled;
-  BOOST_TEST((velocity.inverse == written.leg.recycled.velocity.inverse));
-  BOOST_TEST(equal(velocity.positions, written.leg.recycled.velocity.positions));
+  const StepMemory &memory = read.memory;
+  BOOST_REQUIRE(memory.past.size() == written.memory.past.size());
+  for (std::size_t i = 0; i < memory.past.size(); ++i) {
+    const StepMemory::Point &point = memory.past[i], &expected = written.memory.past[i];
+    BOOST_TEST(same(point.time, expected.time));
+    BOOST_TEST(equal({point.state, point.load, point.rate}, {expected.state, expected.load, expected.rate}));
+  }
+  BOOST_TEST(memory.order == 3u);
+  BOOST_TEST(memory.steps_at_order == 2u);
+  BOOST_TEST(same(memory.step, written.memory.step));
+  BOOST_TEST(same(memory.left_over, written.memory.left_over));
+  BOOST_TEST((memory.mobility.at == written.memory.mobility.at));
+  BOOST_TEST(memory.mobility.age == 7);
+  BOOST_TEST((memory.load_jacobian.at == written.memory.load_jacobian.at));
+  BOOST_TEST(memory.load_jacobian.age == 5);
+  BOOST_TEST(same(memory.factored, written.memory.factored));
+  const auto &[velocity, traction] = read.recycled;
+  BOOST_TEST((velocity.inverse == written.recycled.velocity.inverse));
+  BOOST_TEST(equal(velocity.positions, written.recycled.velocity.positions));
   BOOST_TEST(traction.inverse.size() == 0);
-  BOOST_TEST(equal(traction.solutions, written.leg.recycled.traction.solutions));
+  BOOST_TEST(equal(traction.solutions, written.recycled.traction.solutions));
+  BOOST_TEST(read.next_x_g == 4u);
+  BOOST_TEST(read.next_time == 6u);
+  BOOST_TEST(same(read.checked, written.checked));
   BOOST_REQUIRE(read.companion.size() == 1u);
   BOOST_TEST((read.companion[0].position == written.companion[0].position));
 }

@@ -56,9 +56,23 @@ BOOST_AUTO_TEST_CASE(orders_on_a_capsule) {
   BOOST_TEST(std::abs(observed_order(stretched_capsule(5), Scheme::rk4, 100) - 4) < 0.2);
 }
 
+// The scheme with error control comes to the same shape, to its tolerance.
+BOOST_AUTO_TEST_CASE(error_control_on_a_capsule) {
+  for (const double viscosity_ratio : {1.0, 5.0}) {
+    const Vector exact = final_shape(stretched_capsule(viscosity_ratio), Scheme::rk4, 800);
+    const auto error = [&](double tolerance) {
+      Case physics = stretched_capsule(viscosity_ratio);
+      physics.time.tolerance = tolerance;
+      return (final_shape(physics, Scheme::bdf, 1) - exact).cwiseAbs().maxCoeff();
+    };
+    BOOST_TEST(error(1e-6) < 1e-4);
+    BOOST_TEST(error(1e-9) < 1e-7);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_interpolants_keep_their_orders) {
   const auto error = [](Scheme scheme, double step) {
-    ExplicitIntegrator integrator(scheme, rotation_rate, 0, Vector{{0, 1}}, step);
+    ExplicitIntegrator integrator(scheme, rotation_rate, {0, Vector{{0, 1}}, {}, {}}, step);
     integrator.step();
     const double time = 0.3 * step;
     return std::hypot(integrator.state_at(time)[0] - std::sin(time),
@@ -72,7 +86,7 @@ BOOST_AUTO_TEST_CASE(the_interpolants_keep_their_orders) {
 BOOST_AUTO_TEST_CASE(limits_of_stability) {
   for (const Scheme scheme : {Scheme::euler, Scheme::rk4}) {
     ExplicitIntegrator integrator(
-        scheme, [](const Vector &state) -> Vector { return -state; }, 0, Vector{{1}},
+        scheme, [](const Vector &state) -> Vector { return -state; }, {0, Vector{{1}}, {}, {}},
         stability_limit(scheme));
     integrator.step();
     BOOST_TEST(std::abs(std::abs(integrator.state_at(integrator.time())[0]) - 1) < 1e-12);

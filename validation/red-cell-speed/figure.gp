@@ -50,7 +50,7 @@ set key bottom left
 plot for [i=1:4] costs using (of(i, "dilatation")):(of(i, "area_change")) with linespoints linetype i pointtype 7 pointsize 0.5, \
   [10:1e4] 2 / x with lines linecolor rgb "#808080" title "∝ 1/{/:Italic C}"
 unset multiplot
-print "**Membranes that hardly change their area** (Skalak). Left: with C the velocities and Jacobians of a march grow more than its steps:", \
+print "**Membranes that hardly change their area** (Skalak). Left: steps and velocities of a march with C:", \
   sprintf("from C = 100 to 10^4 %.1f to %.1f times the steps, %.1f to %.1f times the CPU time.", \
     lower(lower(ratio(1, 4), ratio(2, 4)), lower(ratio(3, 4), ratio(4, 4))), upper(upper(ratio(1, 4), ratio(2, 4)), upper(ratio(3, 4), ratio(4, 4))), \
     lower(lower(ratio(1, 7), ratio(2, 7)), lower(ratio(3, 7), ratio(4, 7))), upper(upper(ratio(1, 7), ratio(2, 7)), upper(ratio(3, 7), ratio(4, 7)))), \
@@ -65,6 +65,6 @@ print "μ_s,nodes,steps,CPU seconds,transit time,error of the time,estimated,of 
 print rows_of(transits, "1 2 4 5 6 7 8 9 10 11 12", 5)
 eval end_table("transits")
 eval table("costs")
-print "cell,C,nodes,steps,velocities,Jacobians,CPU seconds,largest change of area"
+print "cell,C,nodes,steps,velocities,mobilities,CPU seconds,largest change of area"
 print rows_of(costs, "1 2 3 4 5 6 7 8", 7)
 eval end_table("costs")

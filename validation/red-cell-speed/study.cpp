@@ -5,7 +5,7 @@
 #include "base/text.hpp"
 #include "law/skalak.hpp"
 #include "motion/dynamics.hpp"
-#include "motion/time_step.hpp"
+#include "motion/split_bdf.hpp"
 #include "observe/gauge.hpp"
 #include "scene/resolution.hpp"
 #include "steady/steady_state.hpp"
@@ -142,19 +142,21 @@ std::string cost_of(const Cell &cell, double dilatation) {
   const Dynamics dynamics = make_dynamics(physics);
   const Membrane &membrane = dynamics.scene->membrane;
   const Gauge gauge(dynamics.scene->pore, membrane);
-  long velocities = 0, jacobians = 0, steps = 0;
-  const Equations equations{[&](const Vector &position, Vector &rate) {
-                              ++velocities;
-                              rate = dynamics.flow(position).velocity;
-                              return true;
-                            },
-                            [&](const Vector &position, Matrix &jacobian) {
-                              ++jacobians;
-                              jacobian = dynamics.jacobian(position);
-                              return true;
-                            }};
+  long velocities = 0, mobilities = 0, steps = 0;
+  const SplitEquations equations{.load = dynamics.load,
+                                 .rate =
+                                     [&](const Vector &position, StepEnd /*end*/) {
+                                       ++velocities;
+                                       return dynamics.flow(position).velocity;
+                                     },
+                                 .mobility =
+                                     [&](const Vector &position) {
+                                       ++mobilities;
+                                       return dynamics.mobility(position);
+                                     },
+                                 .load_jacobian = dynamics.load_jacobian};
   const double began = cpu_seconds();
-  BdfIntegrator integrator(equations, 0, dynamics.scene->start, choose_resolution(physics).time_tolerance);
+  SplitBdf integrator(equations, 0, dynamics.scene->start, choose_resolution(physics).time_tolerance);
   Vector position;
   double area_change = 0;
   do {
@@ -175,7 +177,7 @@ std::string cost_of(const Cell &cell, double dilatation) {
       settled = found.last.series.front().pressure_drop;
   }
   return fmt::format("{},{},{},{},{},{},{:.4g},{:.4e},{:.8g},{:.8g}", cell.name, dilatation,
-                     membrane.basis.size(), steps, velocities, jacobians, seconds, area_change,
+                     membrane.basis.size(), steps, velocities, mobilities, seconds, area_change,
                      flow.pressure_drop, settled);
 }
 
@@ -198,7 +200,7 @@ bool cost_against_dilatation(const std::string &directory, unsigned jobs) {
       tasks.push_back({fmt::format("{}-{}", cell.name, dilatation),
                        [cell, dilatation] { return cost_of(cell, dilatation); }});
   const std::vector<std::string> rows = make_all(directory, jobs, tasks);
-  Table table("cell,dilatation,nodes,steps,velocities,jacobians,seconds,area_change,pressure_drop,steady_"
+  Table table("cell,dilatation,nodes,steps,velocities,mobilities,seconds,area_change,pressure_drop,steady_"
               "pressure_drop");
   for (const std::string &row : rows)
     table.add(row);

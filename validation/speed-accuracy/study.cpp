@@ -10,7 +10,7 @@
 #include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
-#include "motion/time_step.hpp"
+#include "motion/split_bdf.hpp"
 #include "observe/gauge.hpp"
 #include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"
@@ -272,38 +272,53 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
   const Flow flow = make_flow(dynamics.scene->pore, physics.flow, membrane.basis, resolution.flow);
   const Gauge gauge(dynamics.scene->pore, membrane);
   Shares shares;
-  double velocity = 0; // load, interaction and systems
+  double velocity = 0;  // load, interaction and systems
+  double flow_load = 0; // the load's part of it
   const auto clocked = [](double &sum, const auto &function) {
     const double began = cpu_seconds();
     auto result = function();
     sum += cpu_seconds() - began;
     return result;
   };
-  const Equations equations{[&](const Vector &position, Vector &rate) {
-                              clocked(shares.load, [&] { return membrane_load(membrane, position); });
-                              clocked(shares.interaction, [&] { return flow.interact(position); });
-                              rate = clocked(velocity, [&] { return dynamics.flow(position).velocity; });
-                              return rate.allFinite();
-                            },
-                            [&](const Vector &position, Matrix &jacobian) {
-                              jacobian =
-                                  clocked(shares.jacobian, [&] { return dynamics.jacobian(position); });
-                              return true;
-                            }};
+  const SplitEquations equations{
+      .load =
+          [&](const Vector &position) {
+            return clocked(shares.load, [&] { return dynamics.load(position); });
+          },
+      .rate =
+          [&](const Vector &position, StepEnd /*end*/) {
+            clocked(flow_load, [&] { return membrane_load(membrane, position); });
+            clocked(shares.interaction, [&] { return flow.interact(position); });
+            return clocked(velocity, [&] { return dynamics.flow(position).velocity; });
+          },
+      .mobility =
+          [&](const Vector &position) {
+            return clocked(shares.jacobian, [&] { return dynamics.mobility(position); });
+          },
+      .load_jacobian =
+          [&](const Vector &position) {
+            return clocked(shares.jacobian, [&] { return dynamics.load_jacobian(position); });
+          },
+      .place = [&](const Vector &position) { return gauge.centre(position); }};
   const double began = cpu_seconds();
-  BdfIntegrator integrator(equations, 0, dynamics.scene->start, resolution.time_tolerance);
-  do
-    integrator.step();
-  while (gauge.centre(integrator.state_at(integrator.time())) < last_x_g);
-  const double once = shares.load + shares.interaction;
+  SplitBdf integrator(equations, 0, dynamics.scene->start, resolution.time_tolerance);
+  double station = physics.capsule.start_x;
+  while (station < last_x_g) {
+    station += row_spacing;
+    while (integrator.step({.place = station}) == StepEnd::on_the_way)
+      continue;
+  }
+  const double once = flow_load + shares.interaction;
   shares.system = std::max(0.0, velocity - once);
-  shares.integrator = cpu_seconds() - began - once - velocity - shares.jacobian;
+  shares.integrator = cpu_seconds() - began - once - velocity - shares.load - shares.jacobian;
+  shares.load += flow_load;
 
   const Flow membrane_alone = make_flow(std::nullopt, physics.flow, membrane.basis, resolution.flow);
-  std::vector<double> alone, all, row;
+  std::vector<double> alone, all, row, step; // a row's flow is a step's
   for (const Vector &shape : shapes) {
     alone.push_back(seconds_of([&] { membrane_alone.interact(shape); }));
     all.push_back(seconds_of([&] { flow.interact(shape); }));
+    step.push_back(seconds_of([&] { dynamics.flow(shape); }));
     row.push_back(seconds_of([&] {
       const FlowState state = dynamics.report(shape, true);
       gauge.row(0, shape, state.velocity);
@@ -311,7 +326,7 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
     }));
   }
   shares.membrane_part = mean(alone) / mean(all);
-  shares.observables = rows * mean(row);
+  shares.observables = rows * std::max(0.0, mean(row) - mean(step));
   return shares;
 }
 

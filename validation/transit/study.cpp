@@ -8,7 +8,7 @@
 #include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
-#include "motion/time_step.hpp"
+#include "motion/split_bdf.hpp"
 #include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"
 #include "test/rigid_sphere.hpp"
@@ -307,28 +307,40 @@ bool replay() {
   const double epsilon = given.flow.capillary_number;
   const Eigen::Index n2 = scene.start.size();
   Recycled recycled;
-  const Equations equations{[&](const Vector &state, Vector &rate) { // of the position and of the time itself
-                              const Vector position = state.head(n2);
-                              const double q = flow_rate_at(series, state[n2]);
-                              const Vector load = membrane_load(scene.membrane, position) / (epsilon * q);
-                              rate.resize(n2 + 1);
-                              rate << q * flow.solve(flow.interact(position), load, recycled).velocity, 1;
-                              return true;
-                            },
-                            [&](const Vector &state, Matrix &jacobian) {
-                              const Vector position = state.head(n2);
-                              jacobian = Matrix::Zero(n2 + 1, n2 + 1);
-                              jacobian.topLeftCorner(n2, n2) =
-                                  flow.mobility(flow.interact(position), recycled) *
-                                  frozen_load_jacobian(scene.membrane, position, epsilon);
-                              return true;
-                            }};
+  const auto load = [&](const Vector &state) { // of the position and of the time itself
+    Vector all = Vector::Zero(n2 + 1);
+    all.head(n2) = membrane_load(scene.membrane, state.head(n2)) / epsilon;
+    return all;
+  };
+  const SplitEquations equations{
+      .load = load,
+      .rate =
+          [&](const Vector &state, StepEnd /*end*/) {
+            const double q = flow_rate_at(series, state[n2]);
+            Vector rate(n2 + 1);
+            rate
+                << q * flow.solve(flow.interact(state.head(n2)), load(state).head(n2) / q, recycled).velocity,
+                1;
+            return rate;
+          },
+      .mobility =
+          [&](const Vector &state) {
+            Matrix all = Matrix::Zero(n2 + 1, n2 + 1);
+            all.topLeftCorner(n2, n2) = flow.mobility(flow.interact(state.head(n2)), recycled);
+            return all;
+          },
+      .load_jacobian =
+          [&](const Vector &state) {
+            Matrix all = Matrix::Zero(n2 + 1, n2 + 1);
+            all.topLeftCorner(n2, n2) = frozen_load_jacobian(scene.membrane, state.head(n2), epsilon);
+            return all;
+          }};
   Vector state(n2 + 1);
   state << scene.start, 0;
-  BdfIntegrator integrator(equations, 0, state, chosen.time_tolerance);
+  SplitBdf integrator(equations, 0, state, chosen.time_tolerance);
   const double end = series.back().time;
   while (integrator.time() < end)
-    integrator.step();
+    integrator.step({.time = end});
   const double off = (integrator.state_at(end).head(n2) - outcome.last.position).cwiseAbs().maxCoeff();
   const double lowest = std::ranges::min(series, {}, &SeriesRow::flow_rate).flow_rate;
   return check(

@@ -1,0 +1,170 @@
+// The integrator of marches on a stiff problem with a known solution: its errors follow the tolerance, its steps are those
+// of the slow part, it ends steps at targets, goes on from its memory with the same bits, and gives up where it must.
+#include "base/failure.hpp"
+#include "motion/split_bdf.hpp"
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <vector>
+
+using namespace capsule;
+
+namespace {
+
+// A point (c, s) on the unit circle and z = c^2, to which a load pulls through a mobility that changes with c:
+//   c' = -s, s' = c, z' = m F + rest,   m = 1 + c/20,   F = 5 - 1000 (z - c^2) - 100 (z - c^2)^3
+constexpr double stiffness = 1000;
+
+double mobility_at(const Vector &state) {
+  return 1 + state[0] / 20;
+}
+
+double load_at(const Vector &state) {
+  const double off = state[2] - state[0] * state[0];
+  return 5 - stiffness * off - 100 * off * off * off;
+}
+
+Vector rate_at(const Vector &state) {
+  const double held = 5 * mobility_at(state);
+  return Vector{{-state[1], state[0], mobility_at(state) * load_at(state) - held - 2 * state[0] * state[1]}};
+}
+
+SplitEquations circle() {
+  return {.load = [](const Vector &state) -> Vector {
+            return Vector{{0, 0, load_at(state)}};
+          },
+          .rate = [](const Vector &state, StepEnd /*end*/) { return rate_at(state); },
+          .mobility = [](const Vector &state) -> Matrix {
+            Matrix mobility = Matrix::Zero(3, 3);
+            mobility(2, 2) = mobility_at(state);
+            return mobility;
+          },
+          .load_jacobian = [](const Vector &state) -> Matrix {
+            Matrix jacobian = Matrix::Zero(3, 3);
+            jacobian(2, 0) = 2 * state[0] * stiffness; // without the cubic part
+            jacobian(2, 2) = -stiffness;
+            return jacobian;
+          },
+          .place = [](const Vector &state) { return state[1]; }};
+}
+
+const Vector beginning{{1, 0, 1}};
+
+double error_at(double time, const Vector &state) {
+  const double c = std::cos(time);
+  return std::max({std::abs(state[0] - c), std::abs(state[1] - std::sin(time)), std::abs(state[2] - c * c)});
+}
+
+struct Way {
+  double error = 0;
+  int steps = 0;
+};
+Way way_to(double end, double tolerance) {
+  SplitBdf integrator(circle(), 0, beginning, tolerance);
+  Way way;
+  while (integrator.time() < end) {
+    integrator.step({.time = end});
+    ++way.steps;
+    way.error = std::max(way.error, error_at(integrator.time(), integrator.state_at(integrator.time())));
+  }
+  return way;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(split_bdf)
+
+// Of order 5 a step of a given error is shorter by the sixth root of the tolerance. An explicit scheme would be stable below
+// steps of 2/1000.
+BOOST_AUTO_TEST_CASE(errors_follow_the_tolerance_and_steps_the_slow_part) {
+  constexpr double end = 10;
+  const Way coarse = way_to(end, 1e-6), fine = way_to(end, 1e-9);
+  BOOST_TEST(coarse.error < 1e-4);
+  BOOST_TEST(fine.error < 1e-7);
+  BOOST_TEST(fine.error < coarse.error / 100);
+  BOOST_TEST(coarse.steps < end * stiffness / 20);
+  BOOST_TEST(fine.steps < 1.3 * std::pow(1000, 1.0 / 6) * coarse.steps);
+}
+
+// A state beside the slow manifold comes back to it.
+BOOST_AUTO_TEST_CASE(what_is_stiff_decays) {
+  SplitBdf integrator(circle(), 0, Vector{{1, 0, 1.1}}, 1e-7);
+  while (integrator.time() < 1)
+    integrator.step();
+  BOOST_TEST(error_at(integrator.time(), integrator.state_at(integrator.time())) < 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(steps_end_at_targets) {
+  SplitEquations equations = circle();
+  Vector asked;
+  equations.rate = [&](const Vector &state, StepEnd end) {
+    if (end != StepEnd::on_the_way)
+      asked = state;
+    return rate_at(state);
+  };
+  SplitBdf integrator(equations, 0, beginning, 1e-8);
+  const auto go_to = [&](const Target &target) {
+    StepEnd end = StepEnd::on_the_way;
+    while (end == StepEnd::on_the_way) {
+      end = integrator.step(target);
+      BOOST_TEST(integrator.time() > integrator.previous_time());
+    }
+    return end;
+  };
+  for (const double place : {0.1, 0.2, 0.35, 0.5}) {
+    BOOST_TEST((go_to({.time = 10, .place = place}) == StepEnd::at_place));
+    BOOST_TEST(std::abs(asked[1] - place) < 1e-12);
+    BOOST_TEST(std::abs(integrator.time() - std::asin(place)) < 1e-6);
+    BOOST_TEST(error_at(integrator.time(), asked) < 1e-6);
+  }
+  for (const double time : {0.6, 0.61, 0.7}) {
+    BOOST_TEST((go_to({.time = time, .place = 0.9}) == StepEnd::at_time));
+    BOOST_TEST(integrator.time() == time);
+    BOOST_TEST(error_at(time, asked) < 1e-6);
+  }
+  BOOST_TEST((go_to({.place = 0.9}) == StepEnd::at_place));
+  // Within a step, by its polynomial; at its ends, what they are.
+  const double before = integrator.previous_time(), now = integrator.time();
+  for (const double share : {0.0, 0.3, 0.8, 1.0})
+    BOOST_TEST(error_at(before + share * (now - before),
+                        integrator.state_at(before + share * (now - before))) < 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(it_goes_on_from_its_memory_with_the_same_bits) {
+  const auto target = [](double time) { return Target{.time = std::floor(time / 0.3 + 1) * 0.3}; };
+  SplitBdf whole(circle(), 0, beginning, 1e-7);
+  std::vector<StepMemory> memories{whole.memory()};
+  std::vector<Vector> states{beginning};
+  for (int k = 0; k < 120; ++k) {
+    whole.step(target(whole.time()));
+    memories.push_back(whole.memory());
+    states.push_back(whole.state_at(whole.time()));
+  }
+  for (std::size_t from = 0; from < memories.size(); from += 7) {
+    SplitBdf resumed(circle(), memories[from], 1e-7);
+    for (std::size_t k = from + 1; k < memories.size(); ++k) {
+      resumed.step(target(resumed.time()));
+      BOOST_REQUIRE(resumed.time() == memories[k].past[0].time);
+      BOOST_REQUIRE((resumed.state_at(resumed.time()) - states[k]).cwiseAbs().maxCoeff() == 0);
+    }
+  }
+}
+
+// Where there is no rate beyond a place, steps become shorter, and then the failure is the rate's own.
+BOOST_AUTO_TEST_CASE(failures_of_the_rate_end_the_march_where_they_are) {
+  SplitEquations equations = circle();
+  equations.rate = [](const Vector &state, StepEnd /*end*/) {
+    if (state[1] > 0.5)
+      throw NumericsFailure("wall", "here is the wall", "go back");
+    return rate_at(state);
+  };
+  SplitBdf integrator(equations, 0, beginning, 1e-7);
+  const auto go = [&] {
+    for (int k = 0; k < 10000; ++k)
+      integrator.step();
+  };
+  BOOST_CHECK_EXCEPTION(go(), NumericsFailure,
+                        [](const NumericsFailure &failure) { return failure.kind == "wall"; });
+  BOOST_TEST(std::abs(integrator.state_at(integrator.time())[1] - 0.5) < 1e-4);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
