@@ -86,23 +86,6 @@ Elasticity elasticity(const Membrane &membrane, const Strain &strain, double ben
   return {in_plane.w + 0.5 * couple.dot(bending), in_plane, couple(0), couple(1)};
 }
 
-UndeformedMeridian undeformed_at(const Sampling &at, const Vector &reference) {
-  const LocalShapes shapes = local_shapes(at, reference);
-  const Eigen::Index points = at.zeta.size();
-  UndeformedMeridian undeformed{Vector(points), Vector(points), Vector(points), Vector(points)};
-  for (Eigen::Index i = 0; i < points; ++i) {
-    const LocalVector shape = shapes.col(i);
-    const Tangent tangent = tangent_of(shape);
-    Strain strain = strain_of(shape, tangent, shape(r0), tangent.g);
-    strain = is_pole(at.zeta(i)) ? isotropic(strain) : strain;
-    undeformed.radius(i) = shape(r0);
-    undeformed.arc(i) = tangent.g;
-    undeformed.curvature_meridional(i) = strain.bend_meridional;
-    undeformed.curvature_azimuthal(i) = strain.bend_azimuthal;
-  }
-  return undeformed;
-}
-
 // One point of the energy's quadrature.
 struct Point {
   double radius, arc;    // R and S'
@@ -198,7 +181,8 @@ Membrane make_membrane(const CapsuleSpec &capsule, const MembraneSpec &material,
                     .reference = {},
                     .sampling = sample(basis, zeta, weights),
                     .undeformed = {},
-                    .at_nodes = sample(basis, basis.nodes, basis.weights)};
+                    .at_nodes = sample(basis, basis.nodes, basis.weights),
+                    .undeformed_at_nodes = {}};
   set_material(capsule, material, membrane);
   return membrane;
 }
@@ -209,11 +193,33 @@ void set_material(const CapsuleSpec &capsule, const MembraneSpec &material, Memb
   membrane.initial = initial_position(capsule, membrane.node_angle);
   membrane.reference = reference_position(capsule, membrane.node_angle);
   membrane.undeformed = undeformed_at(membrane.sampling, membrane.reference);
+  membrane.undeformed_at_nodes = undeformed_at(membrane.at_nodes, membrane.reference);
+}
+
+UndeformedMeridian undeformed_at(const Sampling &at, const Vector &reference) {
+  const LocalShapes shapes = local_shapes(at, reference);
+  const Eigen::Index points = at.zeta.size();
+  UndeformedMeridian undeformed{Vector(points), Vector(points), Vector(points), Vector(points)};
+  for (Eigen::Index i = 0; i < points; ++i) {
+    const LocalVector shape = shapes.col(i);
+    const Tangent tangent = tangent_of(shape);
+    Strain strain = strain_of(shape, tangent, shape(r0), tangent.g);
+    strain = is_pole(at.zeta(i)) ? isotropic(strain) : strain;
+    undeformed.radius(i) = shape(r0);
+    undeformed.arc(i) = tangent.g;
+    undeformed.curvature_meridional(i) = strain.bend_meridional;
+    undeformed.curvature_azimuthal(i) = strain.bend_azimuthal;
+  }
+  return undeformed;
 }
 
 MembraneState membrane_state(const Membrane &membrane, const Sampling &at, const Vector &position) {
+  return membrane_state(membrane, at, undeformed_at(at, membrane.reference), position);
+}
+
+MembraneState membrane_state(const Membrane &membrane, const Sampling &at,
+                             const UndeformedMeridian &undeformed, const Vector &position) {
   const Eigen::Index n = membrane.basis.size(), points = at.zeta.size();
-  const UndeformedMeridian undeformed = undeformed_at(at, membrane.reference);
   const LocalShapes shapes = local_shapes(at, position);
   MembraneState state;
   state.x = at.even[0] * position.head(n);

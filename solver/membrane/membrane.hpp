@@ -26,6 +26,7 @@ struct Membrane {
   Sampling sampling;             // where the energy is integrated: no point at a pole
   UndeformedMeridian undeformed; // at the sampling's points
   Sampling at_nodes;             // the nodes themselves, with the basis' weights
+  UndeformedMeridian undeformed_at_nodes;
 };
 
 // With the nodes at angles zeta; the energy is integrated at the given points.
@@ -48,6 +49,10 @@ struct MembraneState {
   Vector moment_meridional, moment_azimuthal;
 };
 MembraneState membrane_state(const Membrane &membrane, const Sampling &at, const Vector &position);
+// The same where the undeformed meridian at these points is at hand.
+MembraneState membrane_state(const Membrane &membrane, const Sampling &at,
+                             const UndeformedMeridian &undeformed, const Vector &position);
+UndeformedMeridian undeformed_at(const Sampling &at, const Vector &reference);
 
 // Elastic energy, scaled with G R_t^2:
 //   W = integral over the reference area of w(lambda_s, lambda_phi)

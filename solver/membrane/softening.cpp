@@ -7,7 +7,8 @@
 namespace capsule {
 
 SoftestPoint softest_point(const Membrane &membrane, const Vector &position) {
-  const MembraneState state = membrane_state(membrane, membrane.at_nodes, position);
+  const MembraneState state =
+      membrane_state(membrane, membrane.at_nodes, membrane.undeformed_at_nodes, position);
   SoftestPoint softest{std::numeric_limits<double>::infinity(), 1, 1};
   for (Eigen::Index i = 0; i < state.stretch_meridional.size(); ++i) {
     const double a = state.stretch_meridional[i], b = state.stretch_azimuthal[i];

@@ -63,7 +63,8 @@ Dynamics standard_dynamics(const Case &physics) {
     require_capsules(*scene, position, advice);
     return flow->solve(flow->interact(place_in_flow(type, position)), f(position), recycled->velocity);
   };
-  dynamics.report = [type, flow, f, recycled](const Vector &position, bool regular) {
+  dynamics.report = [type, flow, scene, f, recycled](const Vector &position, bool regular) {
+    require_capsules(*scene, position, advice);
     const Interaction interaction = flow->interact(place_in_flow(type, position));
     const Vector load = f(position);
     RecycledFlow copy;

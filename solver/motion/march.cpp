@@ -135,7 +135,6 @@ private:
         if (steps_ % steps_between_stability_checks == 0)
           require_stable_step(record_.position);
         integrator.step();
-        return StepEnd::on_the_way;
       });
     } catch (const NumericsFailure &failure) {
       require_stable_step(last_accepted_);
@@ -161,41 +160,18 @@ private:
 
   Status run_bdf() {
     const double tolerance = choose_resolution(input_).time_tolerance;
-    // Rows limit the steps of both marches: of the same order both would have the same error there.
-    const std::size_t highest_order = role_ == Role::main ? 5 : 3;
-    const SplitEquations equations{dynamics_.load,
-                                   [&](const Vector &position, StepEnd end) {
-                                     if (end == StepEnd::on_the_way)
-                                       return dynamics_.flow(position).velocity;
-                                     at_target_ = {position, flow_of_row(position, true)};
-                                     return at_target_.flow.velocity;
+    const SplitEquations equations{.load = dynamics_.load,
+                                   .rate = [this](const Vector &position) -> SplitEquations::Rate {
+                                     const FlowState flow = flow_of_row(position, true);
+                                     return {flow.velocity, further_of(flow)};
                                    },
-                                   dynamics_.mobility, dynamics_.load_jacobian,
-                                   [this](const Vector &position) { return centre_of(0, position); }};
+                                   .mobility = dynamics_.mobility,
+                                   .load_jacobian = dynamics_.load_jacobian};
     SplitBdf integrator = begin([&] {
-      return record_.memory.past.empty()
-                 ? SplitBdf(equations, record_.time, record_.position, tolerance, highest_order)
-                 : SplitBdf(equations, record_.memory, tolerance, highest_order);
+      return record_.memory.past.empty() ? SplitBdf(equations, record_.time, record_.position, tolerance)
+                                         : SplitBdf(equations, record_.memory, tolerance);
     });
-    return run_steps(integrator, [&] { return integrator.step(next_target()); });
-  }
-
-  // The first regular station that is still to come.
-  static std::size_t first_regular(const std::vector<Station> &stations, std::size_t from) {
-    while (from < stations.size() && !stations[from].regular)
-      ++from;
-    return from;
-  }
-  std::size_t target_x_g() const { return first_regular(x_g_stations_, record_.next_x_g); }
-  std::size_t target_time() const { return first_regular(time_stations_, record_.next_time); }
-
-  Target next_target() const {
-    Target target;
-    if (const std::size_t k = target_time(); k < time_stations_.size())
-      target.time = time_stations_[k].value;
-    if (const std::size_t k = target_x_g(); k < x_g_stations_.size())
-      target.place = x_g_stations_[k].value;
-    return target;
+    return run_steps(integrator, [&] { integrator.step(); });
   }
 
   // Steps until the end. `advance` makes one.
@@ -207,9 +183,9 @@ private:
         save(integrator);
       if (interrupted)
         return Status::interrupted;
-      const StepEnd end = advance();
+      advance();
       ++steps_;
-      if (record_due(integrator, end))
+      if (record_due(integrator))
         return Status::reached;
       record_.time = integrator.time();
       record_.position = integrator.state_at(record_.time);
@@ -260,50 +236,45 @@ private:
 
   // Records the rows that fall into the last step, in order of time; true at the end.
   template <class Integrator>
-  bool record_due(const Integrator &integrator, StepEnd end) {
+  bool record_due(const Integrator &integrator) {
     const double now = integrator.time(), before = integrator.previous_time();
     const double burst = burst_time(integrator), last = arrival_of_last(integrator);
-    const std::size_t reached_time = end == StepEnd::at_time ? target_time() : time_stations_.size();
-    const std::size_t reached_x_g = end == StepEnd::at_place ? target_x_g() : x_g_stations_.size();
+    const auto x_g = [&](double time) { return centre_of(0, integrator.state_at(time)); };
+    const double x_g_now = x_g(now);
     for (;;) {
       double due = std::numeric_limits<double>::infinity();
       const Station *station = nullptr;
-      bool in_time = false, reached = false; // by the step itself
+      bool in_time = false;
       if (record_.next_time < time_stations_.size() && time_stations_[record_.next_time].value <= now) {
         station = &time_stations_[record_.next_time];
         due = station->value;
         in_time = true;
-        reached = record_.next_time == reached_time;
       }
-      if (record_.next_x_g < x_g_stations_.size()) {
-        const bool here = record_.next_x_g == reached_x_g;
-        const auto ahead = [&](double time) {
-          return centre_of(0, integrator.state_at(time)) - x_g_stations_[record_.next_x_g].value;
-        };
-        if (here || ahead(now) >= 0) {
-          const double crossing = here ? now : crossing_time(ahead, before, now);
-          if (crossing < due) {
-            station = &x_g_stations_[record_.next_x_g];
-            due = crossing;
-            in_time = false;
-            reached = here;
-          }
+      if (record_.next_x_g < x_g_stations_.size() && x_g_now >= x_g_stations_[record_.next_x_g].value) {
+        const Station &next = x_g_stations_[record_.next_x_g];
+        const double crossing =
+            crossing_time([&](double time) { return x_g(time) - next.value; }, before, now);
+        if (crossing < due) {
+          station = &next;
+          due = crossing;
+          in_time = false;
         }
       }
       if (last <= now && last <= due) {
         station = &end_station;
         due = last;
-        reached = false;
       }
-      if (burst <= now && burst <= due) {
-        const Vector position = integrator.state_at(burst);
-        record(burst, position, flow_of_row(position, true), end_station, true);
-        return true;
+      const bool bursts = burst <= now && burst <= due;
+      if (bursts) {
+        station = &end_station;
+        due = burst;
       }
       if (station == nullptr)
         return false;
-      const Vector position = reached ? at_target_.position : integrator.state_at(due);
-      record(due, position, reached ? at_target_.flow : flow_of_row(position, station->regular), *station);
+      const Vector position = integrator.state_at(due);
+      record(due, position, flow_at(integrator, due, station->regular), *station, bursts);
+      if (bursts)
+        return true;
       ++(in_time ? record_.next_time : record_.next_x_g);
       if (station->end) {
         record_.time = due;
@@ -331,6 +302,25 @@ private:
       (at_time < 0 ? low : high) = time;
     }
     return time;
+  }
+
+  // What an integrator interpolates of a flow beside the velocity, and back.
+  static Vector further_of(const FlowState &flow) {
+    Vector further(3 + flow.pressure_shares.size());
+    further.head<3>() << flow.pressure_drop, flow.flow_rate, flow.pressure_drop_reciprocal;
+    further.tail(flow.pressure_shares.size()) = flow.pressure_shares;
+    return further;
+  }
+  static FlowState flow_at(const SplitBdf &integrator, double time, bool /*regular*/) {
+    const Vector further = integrator.further_at(time);
+    return {.velocity = integrator.rate_at(time),
+            .pressure_drop = further[0],
+            .flow_rate = further[1],
+            .pressure_drop_reciprocal = further[2],
+            .pressure_shares = further.tail(further.size() - 3)};
+  }
+  FlowState flow_at(const ExplicitIntegrator &integrator, double time, bool regular) const {
+    return flow_of_row(integrator.state_at(time), regular);
   }
 
   // Nobody looks at the companion's second pressure drop, but at each capsule's share of it.
@@ -407,10 +397,6 @@ private:
   Checkpoint record_;
   long steps_;           // with those since the last checkpoint
   Vector last_accepted_; // position of the last row at which nothing stopped the march
-  struct {
-    Vector position;
-    FlowState flow;
-  } at_target_; // where the present step ends, if at a target
   std::vector<Station> x_g_stations_, time_stations_;
 };
 

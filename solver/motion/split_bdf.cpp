@@ -2,11 +2,13 @@
 #include "base/failure.hpp"
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace capsule {
 namespace {
 
+constexpr std::size_t highest_order = 5;
 constexpr int most_attempts = 15; // at a step
 constexpr int most_corrections = 6;
 // Of the implicit load, as a share of the step's tolerance. What is left lies in the shortest waves, where the load is
@@ -17,7 +19,7 @@ constexpr double most_growth = 2; // from step to step
 // A matrix is found again after so many steps, or when it shows its age.
 constexpr int mobility_lasts = 50, load_jacobian_lasts = 20;
 constexpr int mobility_lasts_at_least = 8;
-constexpr int many_corrections = 3;
+constexpr int many_corrections = 4;
 constexpr double old_factors = 0.3; // relative change of the share
 // What the rate may correct, in tolerances, before the mobility is found again; and the part of it that is left.
 constexpr double old_mobility = 1;
@@ -57,33 +59,30 @@ std::vector<double> times_of(const std::vector<StepMemory::Point> &past, std::si
   return times;
 }
 
+Vector weighted(const std::vector<StepMemory::Point> &past, const std::vector<double> &weights,
+                Vector StepMemory::Point::*values) {
+  Vector sum = weights[0] * past[0].*values;
+  for (std::size_t k = 1; k < weights.size(); ++k)
+    sum += weights[k] * past[k].*values;
+  return sum;
+}
+
 } // namespace
 
-SplitBdf::SplitBdf(SplitEquations equations, double time, const Vector &state, double tolerance,
-                   std::size_t highest_order)
-    : equations_(std::move(equations)), tolerance_(tolerance), highest_order_(highest_order) {
-  memory_.past.push_back({time, state, equations_.load(state), equations_.rate(state, StepEnd::on_the_way)});
+SplitBdf::SplitBdf(SplitEquations equations, double time, const Vector &state, double tolerance)
+    : equations_(std::move(equations)), tolerance_(tolerance) {
+  const SplitEquations::Rate here = equations_.rate(state);
+  memory_.past.push_back({time, state, equations_.load(state), here.rate, here.further});
   memory_.step = std::sqrt(tolerance); // of order one, where rates change in a time of one
   memory_.mobility.at = memory_.load_jacobian.at = state;
   find_matrices();
-  find_approach();
 }
 
-SplitBdf::SplitBdf(SplitEquations equations, StepMemory memory, double tolerance, std::size_t highest_order)
-    : equations_(std::move(equations)), tolerance_(tolerance), highest_order_(highest_order),
-      memory_(std::move(memory)) {
+SplitBdf::SplitBdf(SplitEquations equations, StepMemory memory, double tolerance)
+    : equations_(std::move(equations)), tolerance_(tolerance), memory_(std::move(memory)) {
   find_matrices();
   if (memory_.factored != 0)
     factor(memory_.factored);
-  find_approach();
-}
-
-void SplitBdf::find_approach() {
-  const StepMemory::Point &now = memory_.past[0];
-  place_ = equations_.place(now.state);
-  approach_ = available() == 1
-                  ? (equations_.place(now.state + memory_.step * now.rate) - place_) / memory_.step
-                  : (place_ - equations_.place(memory_.past[1].state)) / (now.time - memory_.past[1].time);
 }
 
 void SplitBdf::find_matrices() {
@@ -127,43 +126,32 @@ Vector SplitBdf::correction(const Vector &residual, double share) const {
 }
 
 Vector SplitBdf::extrapolated(std::size_t points, double time) const {
-  const std::vector<double> weights = value_weights(times_of(memory_.past, points), time);
-  Vector state = weights[0] * memory_.past[0].state;
-  for (std::size_t k = 1; k < points; ++k)
-    state += weights[k] * memory_.past[k].state;
-  return state;
+  return weighted(memory_.past, value_weights(times_of(memory_.past, points), time),
+                  &StepMemory::Point::state);
+}
+
+Vector SplitBdf::interpolated(Vector StepMemory::Point::*values, double time) const {
+  const std::size_t points = std::min(available(), last_order_ + 1);
+  return weighted(memory_.past, value_weights(times_of(memory_.past, points), time), values);
 }
 
 Vector SplitBdf::state_at(double time) const {
-  return extrapolated(std::min(available(), last_order_ + 1), time);
+  return interpolated(&StepMemory::Point::state, time);
 }
 
-// Sets the time of the step's end. The steps up to a target are equal.
-StepEnd SplitBdf::choose_end(const Target &target, Trial &trial) const {
-  const StepMemory::Point &now = memory_.past[0];
-  double distance = target.time - now.time;
-  StepEnd end = StepEnd::at_time;
-  const double to_place = target.place - place_;
-  if (to_place > 0 && approach_ > 0 && to_place < distance * approach_) {
-    distance = to_place / approach_;
-    end = StepEnd::at_place;
-  }
-  constexpr double as_long = 1.001;
-  if (distance > as_long * memory_.step) {
-    trial.time = now.time + distance / std::ceil(distance / (as_long * memory_.step));
-    if (!(distance < 1e6 * memory_.step)) // nowhere near
-      trial.time = now.time + memory_.step;
-    return StepEnd::on_the_way;
-  }
-  trial.time = end == StepEnd::at_time ? target.time : now.time + distance;
-  if (end == StepEnd::at_place && available() > trial.order)
-    trial.time += (target.place - equations_.place(extrapolated(trial.order + 1, trial.time))) / approach_;
-  return end;
+Vector SplitBdf::rate_at(double time) const {
+  return interpolated(&StepMemory::Point::rate, time);
 }
 
-// All that follows from the time of the step's end.
-void SplitBdf::set_up(Trial &trial) const {
+Vector SplitBdf::further_at(double time) const {
+  return interpolated(&StepMemory::Point::further, time);
+}
+
+SplitBdf::Trial SplitBdf::set_up() const {
   const std::vector<StepMemory::Point> &past = memory_.past;
+  Trial trial;
+  trial.order = std::min(memory_.order, available());
+  trial.time = past[0].time + memory_.step;
   std::vector<double> nodes = times_of(past, trial.order);
   const std::vector<double> values = value_weights(nodes, trial.time);
   nodes.insert(nodes.begin(), trial.time);
@@ -178,14 +166,13 @@ void SplitBdf::set_up(Trial &trial) const {
   trial.predicted = available() > trial.order
                         ? extrapolated(trial.order + 1, trial.time)
                         : Vector(past[0].state + (trial.time - past[0].time) * past[0].rate);
+  return trial;
 }
 
-// The implicit load with the extrapolated remainder; a step that ends at a place ends there to second order in what the
-// last correction moved it. False if the corrections do not end.
-bool SplitBdf::solve(const Target &target, StepEnd end, Trial &trial) {
+// The implicit load with the extrapolated remainder. False if the corrections do not end.
+bool SplitBdf::solve(Trial &trial) {
   constexpr double out_of_reach = 1e-2; // of a correction
   trial.state = trial.predicted;
-  const StepMemory::Point &now = memory_.past[0];
   for (int count = 1; count <= most_corrections; ++count) {
     const Vector made = mobility_ * equations_.load(trial.state) + trial.remainder;
     const Vector change = correction(trial.known + trial.share * made - trial.state, trial.share);
@@ -193,25 +180,7 @@ bool SplitBdf::solve(const Target &target, StepEnd end, Trial &trial) {
     const double size = root_mean_square(change);
     if (!(size < out_of_reach)) // or not a number
       return false;
-    bool settled = size < correction_share * tolerance_;
-    if (end == StepEnd::at_place) {
-      const auto move = [&] { // to the target, along the slope; how far, in steps
-        const double step = trial.time - now.time;
-        const double place = equations_.place(trial.state);
-        const double moved = (target.place - place) / (place - place_);
-        trial.state += moved * step / trial.share * (trial.state - trial.known);
-        trial.time += moved * step;
-        set_up(trial);
-        return std::abs(moved);
-      };
-      const double moved = move();
-      if (!(moved < 0.5))
-        return false;
-      settled = settled && moved < 1e-6;
-      if (settled)
-        move();
-    }
-    if (settled) {
+    if (size < correction_share * tolerance_) {
       if (count > many_corrections)
         memory_.load_jacobian.age = load_jacobian_lasts;
       return true;
@@ -246,9 +215,9 @@ void SplitBdf::choose_next(const Trial &trial, const Vector &state, double error
       order = trial.order - 1;
     }
   }
-  if (trial.order < highest_order_ && available() == trial.order + 1) {
+  if (trial.order < highest_order && available() == trial.order + 1) {
     order = trial.order + 1; // still beginning
-  } else if (trial.order < highest_order_ && available() > trial.order + 1 &&
+  } else if (trial.order < highest_order && available() > trial.order + 1 &&
              memory_.steps_at_order > trial.order) {
     const double higher = growth(error(trial, trial.order + 1, state), trial.order + 1);
     if (higher > 1.05 * best) {
@@ -264,24 +233,22 @@ void SplitBdf::choose_next(const Trial &trial, const Vector &state, double error
   memory_.step = best > 1 && best < as_long ? step : step * std::min(best, most_growth);
 }
 
-std::optional<StepEnd> SplitBdf::try_step(const Target &target) {
+// False where another attempt is to be made, with other matrices or a shorter step.
+bool SplitBdf::try_step() {
   if (memory_.mobility.age >= mobility_lasts ||
       (memory_.left_over > old_mobility && memory_.mobility.age >= mobility_lasts_at_least))
     freeze_mobility();
   if (memory_.load_jacobian.age >= load_jacobian_lasts)
     freeze_load_jacobian();
-  Trial trial;
-  trial.order = std::min(memory_.order, available());
-  const StepEnd end = choose_end(target, trial);
-  set_up(trial);
+  Trial trial = set_up();
   if (memory_.factored == 0 || std::abs(trial.share / memory_.factored - 1) > old_factors)
     factor(trial.share);
-  if (!solve(target, end, trial)) {
+  if (!solve(trial)) {
     if (memory_.load_jacobian.age > 0)
       freeze_load_jacobian();
     else
       memory_.step /= 4;
-    return std::nullopt;
+    return false;
   }
   const auto shorten = [&](double error) {
     constexpr double least = 0.2;
@@ -290,10 +257,10 @@ std::optional<StepEnd> SplitBdf::try_step(const Target &target) {
   };
   if (const double first = error(trial, trial.order, trial.state); first > 1) {
     shorten(first);
-    return std::nullopt;
+    return false;
   }
   const Vector load = equations_.load(trial.state);
-  const Vector rate = equations_.rate(trial.state, end);
+  const auto [rate, further] = equations_.rate(trial.state);
   const Vector last = correction(trial.known + trial.share * rate - trial.state, trial.share);
   const Vector state = trial.state + last;
   memory_.left_over = root_mean_square(last) / tolerance_;
@@ -303,29 +270,27 @@ std::optional<StepEnd> SplitBdf::try_step(const Target &target) {
       freeze_mobility();
     else
       shorten(left);
-    return std::nullopt;
+    return false;
   }
   choose_next(trial, state, std::max(error(trial, trial.order, state), left));
   last_order_ = trial.order;
-  memory_.past.insert(memory_.past.begin(), {trial.time, state, load, rate});
+  memory_.past.insert(memory_.past.begin(), {trial.time, state, load, rate, further});
   remainders_.insert(remainders_.begin(), rate - mobility_ * load);
-  if (available() > highest_order_ + 2) {
+  if (available() > highest_order + 2) {
     memory_.past.pop_back();
     remainders_.pop_back();
   }
-  const double before = std::exchange(place_, equations_.place(state));
-  approach_ = (place_ - before) / (trial.time - memory_.past[1].time);
   ++memory_.mobility.age;
   ++memory_.load_jacobian.age;
-  return end;
+  return true;
 }
 
-StepEnd SplitBdf::step(const Target &target) {
+void SplitBdf::step() {
   std::optional<NumericsFailure> cause;
   for (int k = 0; k < most_attempts; ++k)
     try {
-      if (const auto end = try_step(target))
-        return *end;
+      if (try_step())
+        return;
     } catch (const NumericsFailure &failure) {
       cause.emplace(failure);
       memory_.step /= 4;

@@ -6,52 +6,44 @@
 // these had, give the new state twice:
 //   - with g extrapolated from the last k states. The load is implicit, so that only F is computed again and again;
 //   - corrected once with the rate u of that state. What is left is the correction times what M misses of the mobility.
-// A step so costs one rate, at the state of its first part, and may end at a given target, where this rate is wanted. The
-// error of a step is the difference of its end to the extrapolated past, times the formula's factor. Everything that the
-// next step depends on can be saved. paper-notes/methods.md has the measurements.
+// A step so costs one rate, at the state of its first part. Between its ends the state, the rate, and what came with it, are
+// polynomials of the step's order. The error of a step is the difference of its end to the extrapolated past, times the
+// formula's factor. Everything that the next step depends on can be saved. paper-notes/methods.md has the measurements.
 #include "base/linear_algebra.hpp"
 #include "observe/step_memory.hpp"
 #include <cstddef>
 #include <functional>
-#include <limits>
-#include <optional>
 #include <vector>
 
 namespace capsule {
 
-// At the time or, to second order in a correction, at the place that a target names; or before both.
-enum class StepEnd { on_the_way, at_time, at_place };
-
 struct SplitEquations {
   std::function<Vector(const Vector &state)> load;
-  // dy/dt, where a step that asks for it ends. May throw NumericsFailure: a shorter step is tried.
-  std::function<Vector(const Vector &state, StepEnd end)> rate;
+  // dy/dt, and what else is computed with it. May throw NumericsFailure: a shorter step is tried.
+  struct Rate {
+    Vector rate;
+    Vector further = {};
+  };
+  std::function<Rate(const Vector &state)> rate;
   // du/dF; dF/dy, which may be approximate.
   std::function<Matrix(const Vector &state)> mobility, load_jacobian;
-  // Which targets are named by; nearly linear in time.
-  std::function<double(const Vector &state)> place = [](const Vector & /*state*/) { return 0; };
-};
-
-// Where a step is to end, whichever comes first.
-struct Target {
-  double time = std::numeric_limits<double>::infinity();
-  double place = std::numeric_limits<double>::infinity();
 };
 
 class SplitBdf {
 public:
   // tolerance: error of a step, root mean square over the components, absolute.
-  SplitBdf(SplitEquations equations, double time, const Vector &state, double tolerance,
-           std::size_t highest_order = 5);
+  SplitBdf(SplitEquations equations, double time, const Vector &state, double tolerance);
   // Goes on from where another one was.
-  SplitBdf(SplitEquations equations, StepMemory memory, double tolerance, std::size_t highest_order = 5);
+  SplitBdf(SplitEquations equations, StepMemory memory, double tolerance);
 
-  // One step, not beyond the target. Throws what the rate throws, or NumericsFailure("step"), when no step is short enough.
-  StepEnd step(const Target &target = {});
+  // One step. Throws what the rate throws, or NumericsFailure("step"), when no step is short enough.
+  void step();
   double time() const { return memory_.past[0].time; }
   double previous_time() const { return memory_.past.at(1).time; }
-  // At a time of the last step, from the polynomial of its order.
+  // At a time of the last step, from the polynomial of its order: the state, the rate, and what came with it.
   Vector state_at(double time) const;
+  Vector rate_at(double time) const;
+  Vector further_at(double time) const;
   const StepMemory &memory() const { return memory_; }
 
 private:
@@ -64,26 +56,23 @@ private:
 
   std::size_t available() const { return memory_.past.size(); }
   Vector extrapolated(std::size_t points, double time) const;
-  StepEnd choose_end(const Target &target, Trial &trial) const;
-  void set_up(Trial &trial) const;
+  Vector interpolated(Vector StepMemory::Point::*values, double time) const;
+  Trial set_up() const;
   void find_matrices();
   void multiply();
-  void find_approach();
   void freeze_mobility();
   void freeze_load_jacobian();
   void factor(double share);
   Vector correction(const Vector &residual, double share) const;
-  bool solve(const Target &target, StepEnd end, Trial &trial);
+  bool solve(Trial &trial);
   double error(const Trial &trial, std::size_t order, const Vector &state) const;
   void choose_next(const Trial &trial, const Vector &state, double error);
-  std::optional<StepEnd> try_step(const Target &target);
+  bool try_step();
 
   SplitEquations equations_;
   double tolerance_;
-  std::size_t highest_order_;
   StepMemory memory_;
   std::vector<Vector> remainders_;             // g of memory_.past
-  double place_ = 0, approach_ = 0;            // of the last state; how fast the place grows there
   Matrix mobility_, load_jacobian_, jacobian_; // M, dF/dy, M dF/dy
   Eigen::PartialPivLU<Matrix> factors_;        // of 1 - share M dF/dy
   std::size_t last_order_ = 1;                 // of the last step

@@ -99,7 +99,7 @@ double roughness_of(const Vector &amplitudes) {
 Gauge::Gauge(const std::optional<Pore> &pore, const Membrane &membrane,
              const std::optional<FlowResolution> &conductor)
     : membrane_(membrane), pore_(pore), panels_(integration_points(membrane.basis)),
-      fine_(pole_to_pole(membrane.basis)) {
+      fine_(pole_to_pole(membrane.basis)), undeformed_(undeformed_at(fine_, membrane.reference)) {
   initial_ = integrals(membrane_.initial);
   if (pore_ && conductor) {
     const FlowResolution resolution = conductor_resolution(*conductor);
@@ -218,7 +218,7 @@ LargestStrain Gauge::largest_strain(const MembraneState &state) const {
 }
 
 LargestStrain Gauge::largest_strain(const Vector &position) const {
-  return largest_strain(membrane_state(membrane_, fine_, position));
+  return largest_strain(membrane_state(membrane_, fine_, undeformed_, position));
 }
 
 SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity) const {
@@ -239,7 +239,7 @@ SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity
   row.max_axial_residual = (velocity.head(n).array() - row.v_g).abs().maxCoeff();
   row.max_radial_velocity = velocity.tail(n).cwiseAbs().maxCoeff();
 
-  const MembraneState state = membrane_state(membrane_, fine_, position);
+  const MembraneState state = membrane_state(membrane_, fine_, undeformed_, position);
   row.max_stretch = maximum(state.stretch_meridional).value;
   const LargestStrain strain = largest_strain(state);
   row.max_area_stretch = strain.area_stretch;
@@ -266,7 +266,7 @@ std::optional<double> Gauge::empty_resistance() const {
 
 Profile Gauge::profile(double time, const Vector &position, const Vector &velocity) const {
   const Eigen::Index n = membrane_.basis.size();
-  const MembraneState state = membrane_state(membrane_, fine_, position);
+  const MembraneState state = membrane_state(membrane_, fine_, undeformed_, position);
   Profile profile;
   profile.time = time;
   profile.x_g = centre(position);

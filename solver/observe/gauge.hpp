@@ -48,9 +48,10 @@ private:
   Membrane membrane_;
   std::optional<Pore> pore_;
   Sampling panels_;
-  Sampling fine_;        // from pole to pole
-  Vector arc_from_pole_; // S at the points of fine_
-  Matrix waves_;         // nodal values of x -> amplitudes of cos(k zeta)
+  Sampling fine_;                 // from pole to pole
+  UndeformedMeridian undeformed_; // at the points of fine_
+  Vector arc_from_pole_;          // S at the points of fine_
+  Matrix waves_;                  // nodal values of x -> amplitudes of cos(k zeta)
   Integrals initial_{};
   std::optional<Conductor> conductor_;
   MembraneMesh conductor_mesh_;

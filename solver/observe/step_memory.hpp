@@ -11,6 +11,7 @@ struct StepMemory {
   struct Point {
     double time = 0;
     Vector state, load, rate; // load and rate: where the rate was asked for
+    Vector further = {};      // what came with the rate
   };
   // A matrix of an earlier state, and the steps since.
   struct Frozen {

@@ -158,12 +158,13 @@ BOOST_AUTO_TEST_CASE(further_rows_change_nothing) {
   BOOST_TEST(k == plain.series.size());
 }
 
-// The estimate bounds the distance to a much finer march, for the error-controlled scheme and for Euler's.
+// The estimate bounds the distance to a much finer march, for the error-controlled scheme and for Euler's. It speaks of
+// rows near the end: a single one may be right by accident.
 BOOST_AUTO_TEST_CASE(error_estimates_bound_the_error) {
   Case physics = short_entrance();
   physics.until.x_g = -1.5;
   physics.mesh.membrane = 40;
-  const double exact = march(physics, {}, {}).last.series.back().pressure_drop;
+  const std::vector<SeriesRow> exact = march(physics, {}, {}).last.series;
   for (const Scheme scheme : {Scheme::bdf, Scheme::euler}) {
     Case coarse = physics;
     coarse.mesh.membrane = 20;
@@ -172,7 +173,12 @@ BOOST_AUTO_TEST_CASE(error_estimates_bound_the_error) {
     coarse.time.tolerance = 1e-5;
     const Outcome outcome = march(coarse, {}, {});
     BOOST_REQUIRE((outcome.status == Status::reached));
-    const double error = std::abs(outcome.last.series.back().pressure_drop - exact);
+    const std::vector<SeriesRow> &rows = outcome.last.series;
+    BOOST_REQUIRE(rows.size() == exact.size());
+    double error = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (rows[k].x_g > rows.back().x_g - 2)
+        error = std::max(error, std::abs(rows[k].pressure_drop - exact[k].pressure_drop));
     BOOST_TEST(error < outcome.error_estimate.at("pressure_drop"));
     BOOST_TEST(error > 0.01 * outcome.error_estimate.at("pressure_drop"));
   }
@@ -184,7 +190,7 @@ BOOST_AUTO_TEST_CASE(error_estimates_in_time_bound_the_error) {
   Case physics = in_extension(neo_hookean, 0.2, 1);
   physics.until.time = 0.5;
   const std::vector<SeriesRow> exact = march(physics, {}, {}).last.series;
-  physics.time.tolerance = 1e-5; // its errors are then those of the time
+  physics.time.tolerance = 3e-6;
   const Outcome outcome = march(physics, {}, {});
   const std::vector<SeriesRow> &rows = outcome.last.series;
   BOOST_REQUIRE(rows.size() == exact.size());

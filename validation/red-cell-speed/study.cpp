@@ -144,11 +144,10 @@ std::string cost_of(const Cell &cell, double dilatation) {
   const Gauge gauge(dynamics.scene->pore, membrane);
   long velocities = 0, mobilities = 0, steps = 0;
   const SplitEquations equations{.load = dynamics.load,
-                                 .rate =
-                                     [&](const Vector &position, StepEnd /*end*/) {
-                                       ++velocities;
-                                       return dynamics.flow(position).velocity;
-                                     },
+                                 .rate = [&](const Vector &position) -> SplitEquations::Rate {
+                                   ++velocities;
+                                   return {dynamics.flow(position).velocity};
+                                 },
                                  .mobility =
                                      [&](const Vector &position) {
                                        ++mobilities;

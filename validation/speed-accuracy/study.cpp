@@ -285,12 +285,11 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
           [&](const Vector &position) {
             return clocked(shares.load, [&] { return dynamics.load(position); });
           },
-      .rate =
-          [&](const Vector &position, StepEnd /*end*/) {
-            clocked(flow_load, [&] { return membrane_load(membrane, position); });
-            clocked(shares.interaction, [&] { return flow.interact(position); });
-            return clocked(velocity, [&] { return dynamics.flow(position).velocity; });
-          },
+      .rate = [&](const Vector &position) -> SplitEquations::Rate {
+        clocked(flow_load, [&] { return membrane_load(membrane, position); });
+        clocked(shares.interaction, [&] { return flow.interact(position); });
+        return {clocked(velocity, [&] { return dynamics.report(position, true).velocity; })};
+      },
       .mobility =
           [&](const Vector &position) {
             return clocked(shares.jacobian, [&] { return dynamics.mobility(position); });
@@ -298,35 +297,28 @@ Shares measure_shares(const Case &physics, const std::vector<Vector> &shapes, do
       .load_jacobian =
           [&](const Vector &position) {
             return clocked(shares.jacobian, [&] { return dynamics.load_jacobian(position); });
-          },
-      .place = [&](const Vector &position) { return gauge.centre(position); }};
+          }};
   const double began = cpu_seconds();
   SplitBdf integrator(equations, 0, dynamics.scene->start, resolution.time_tolerance);
-  double station = physics.capsule.start_x;
-  while (station < last_x_g) {
-    station += row_spacing;
-    while (integrator.step({.place = station}) == StepEnd::on_the_way)
-      continue;
-  }
+  while (gauge.centre(integrator.state_at(integrator.time())) < last_x_g)
+    integrator.step();
   const double once = flow_load + shares.interaction;
   shares.system = std::max(0.0, velocity - once);
   shares.integrator = cpu_seconds() - began - once - velocity - shares.load - shares.jacobian;
   shares.load += flow_load;
 
   const Flow membrane_alone = make_flow(std::nullopt, physics.flow, membrane.basis, resolution.flow);
-  std::vector<double> alone, all, row, step; // a row's flow is a step's
+  std::vector<double> alone, all, row;
   for (const Vector &shape : shapes) {
     alone.push_back(seconds_of([&] { membrane_alone.interact(shape); }));
     all.push_back(seconds_of([&] { flow.interact(shape); }));
-    step.push_back(seconds_of([&] { dynamics.flow(shape); }));
     row.push_back(seconds_of([&] {
-      const FlowState state = dynamics.report(shape, true);
-      gauge.row(0, shape, state.velocity);
+      gauge.row(0, shape, shape); // as long with any velocity
       gauge.crosses_itself(shape);
     }));
   }
   shares.membrane_part = mean(alone) / mean(all);
-  shares.observables = rows * std::max(0.0, mean(row) - mean(step));
+  shares.observables = rows * mean(row);
   return shares;
 }
 

@@ -314,15 +314,12 @@ bool replay() {
   };
   const SplitEquations equations{
       .load = load,
-      .rate =
-          [&](const Vector &state, StepEnd /*end*/) {
-            const double q = flow_rate_at(series, state[n2]);
-            Vector rate(n2 + 1);
-            rate
-                << q * flow.solve(flow.interact(state.head(n2)), load(state).head(n2) / q, recycled).velocity,
-                1;
-            return rate;
-          },
+      .rate = [&](const Vector &state) -> SplitEquations::Rate {
+        const double q = flow_rate_at(series, state[n2]);
+        Vector rate(n2 + 1);
+        rate << q * flow.solve(flow.interact(state.head(n2)), load(state).head(n2) / q, recycled).velocity, 1;
+        return {rate};
+      },
       .mobility =
           [&](const Vector &state) {
             Matrix all = Matrix::Zero(n2 + 1, n2 + 1);
@@ -340,7 +337,7 @@ bool replay() {
   SplitBdf integrator(equations, 0, state, chosen.time_tolerance);
   const double end = series.back().time;
   while (integrator.time() < end)
-    integrator.step({.time = end});
+    integrator.step();
   const double off = (integrator.state_at(end).head(n2) - outcome.last.position).cwiseAbs().maxCoeff();
   const double lowest = std::ranges::min(series, {}, &SeriesRow::flow_rate).flow_rate;
   return check(
