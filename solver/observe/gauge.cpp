@@ -2,6 +2,8 @@
 #include "electric/long_conductor.hpp"
 #include "geometry/quadrature.hpp"
 #include <algorithm>
+#include <array>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -31,6 +33,19 @@ Sampling pole_to_pole(const MeridianBasis &basis) {
 struct Maximum {
   double value, index;
 };
+
+// Of the values at 0, 1, 2, 3, 4 in that of the quartic through them.
+std::array<double, 5> quartic_weights(double place) {
+  std::array<double, 5> weights{};
+  for (int i = 0; i < 5; ++i) {
+    double weight = 1;
+    for (int j = 0; j < 5; ++j)
+      if (j != i)
+        weight *= (place - j) / (i - j);
+    weights[static_cast<std::size_t>(i)] = weight;
+  }
+  return weights;
+}
 
 // Of the quartic through the largest sample and two neighbours on each side; next to an end, of the parabola through
 // three.
@@ -144,29 +159,49 @@ double Gauge::film(const Vector &position) const {
     return std::numeric_limits<double>::infinity();
   const Trace curve = trace(fine_, position);
   const Vector &x = curve.x, &r = curve.r;
-  // From one point to the next the distance to the wall falls by no more than the points are apart: those that are surely
-  // farther than the nearest one are skipped.
+  // Between two points the distance to the wall falls by no more than the points are apart: those that are surely farther than
+  // the nearest one are skipped.
+  const Eigen::Index last_point = x.size() - 1;
+  const auto way = [&](Eigen::Index from, Eigen::Index to) {
+    return std::hypot(x[to] - x[from], r[to] - r[from]);
+  };
   Vector distance(x.size());
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity(), apart = 0;
   Eigen::Index last = 0;
-  Eigen::Index best = 0;
-  for (Eigen::Index k = 0; k < x.size(); ++k) {
-    const double way = std::hypot(x[k] - x[last], r[k] - r[last]);
-    if (k > 0 && distance[last] - way > nearest) {
-      distance[k] = distance[last] - way;
+  for (Eigen::Index k = 0; k <= last_point; ++k) {
+    if (k > 0)
+      apart = std::max(apart, way(k - 1, k));
+    if (k > 0 && distance[last] - way(last, k) > nearest + apart) {
+      distance[k] = distance[last] - way(last, k);
       continue;
     }
     distance[k] = wall_distance(*pore_, x[k], r[k]);
     last = k;
-    if (distance[k] < nearest) {
-      nearest = distance[k];
-      best = k;
-    }
+    nearest = std::min(nearest, distance[k]);
   }
-  for (const Eigen::Index k : {best - 2, best - 1, best + 1, best + 2})
-    if (k >= 0 && k < x.size())
-      distance[k] = wall_distance(*pore_, x[k], r[k]);
-  return -maximum(-distance).value;
+  // The distance has a kink in its slope's change where the mouth ends: it is taken from the smooth meridian, not interpolated.
+  const auto between = [&](Eigen::Index middle) {
+    const Eigen::Index first = std::clamp<Eigen::Index>(middle - 2, 0, last_point - 4);
+    const auto along = [&, first](double place) {
+      const std::array<double, 5> weights = quartic_weights(place - static_cast<double>(first));
+      double at_x = 0, at_r = 0;
+      for (Eigen::Index k = 0; k < 5; ++k) {
+        at_x += weights[static_cast<std::size_t>(k)] * x[first + k];
+        at_r += weights[static_cast<std::size_t>(k)] * r[first + k];
+      }
+      return wall_distance(*pore_, at_x, at_r);
+    };
+    constexpr int half_of_the_digits = 26; // in bits: a minimum is flat
+    const auto low = static_cast<double>(std::max<Eigen::Index>(middle - 1, 0));
+    const auto high = static_cast<double>(std::min(middle + 1, last_point));
+    return boost::math::tools::brent_find_minima(along, low, high, half_of_the_digits).second;
+  };
+  const double sampled = nearest;
+  for (Eigen::Index k = 0; k <= last_point; ++k)
+    if (distance[k] <= sampled + apart && distance[k] <= distance[std::max<Eigen::Index>(k - 1, 0)] &&
+        distance[k] <= distance[std::min(k + 1, last_point)])
+      nearest = std::min(nearest, between(k));
+  return nearest;
 }
 
 bool Gauge::crosses_itself(const Vector &position) const {
