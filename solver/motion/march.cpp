@@ -171,7 +171,18 @@ private:
       return record_.memory.past.empty() ? SplitBdf(equations, record_.time, record_.position, tolerance)
                                          : SplitBdf(equations, record_.memory, tolerance);
     });
-    return run_steps(integrator, [&] { integrator.step(); });
+    return run_steps(integrator, [&] { integrator.step(longest_step()); });
+  }
+
+  // Rows are interpolated: a step passes a few of them at most.
+  double longest_step() const {
+    constexpr double rows_in_a_step = 2;
+    double longest = std::numeric_limits<double>::infinity();
+    if (input_.until.time && !input_.until.by_place())
+      longest = rows_in_a_step * *input_.until.time / rows_in_time;
+    if (const double v_g = record_.series.back().v_g; v_g > 0 && input_.until.by_place())
+      longest = rows_in_a_step * row_spacing / v_g;
+    return longest;
   }
 
   // Steps until the end. `advance` makes one.

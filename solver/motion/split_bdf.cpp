@@ -72,7 +72,7 @@ Vector weighted(const std::vector<StepMemory::Point> &past, const std::vector<do
 SplitBdf::SplitBdf(SplitEquations equations, double time, const Vector &state, double tolerance)
     : equations_(std::move(equations)), tolerance_(tolerance) {
   const SplitEquations::Rate here = equations_.rate(state);
-  memory_.past.push_back({time, state, equations_.load(state), here.rate, here.further});
+  memory_.past.push_back({time, state, equations_.load(state), here.rate, here.rate, here.further});
   memory_.step = std::sqrt(tolerance); // of order one, where rates change in a time of one
   memory_.mobility.at = memory_.load_jacobian.at = state;
   find_matrices();
@@ -140,7 +140,7 @@ Vector SplitBdf::state_at(double time) const {
 }
 
 Vector SplitBdf::rate_at(double time) const {
-  return interpolated(&StepMemory::Point::rate, time);
+  return interpolated(&StepMemory::Point::rate_at_state, time);
 }
 
 Vector SplitBdf::further_at(double time) const {
@@ -274,7 +274,8 @@ bool SplitBdf::try_step() {
   }
   choose_next(trial, state, std::max(error(trial, trial.order, state), left));
   last_order_ = trial.order;
-  memory_.past.insert(memory_.past.begin(), {trial.time, state, load, rate, further});
+  const Vector rate_at_state = rate + mobility_ * (load_jacobian_ * last);
+  memory_.past.insert(memory_.past.begin(), {trial.time, state, load, rate, rate_at_state, further});
   remainders_.insert(remainders_.begin(), rate - mobility_ * load);
   if (available() > highest_order + 2) {
     memory_.past.pop_back();
@@ -285,7 +286,8 @@ bool SplitBdf::try_step() {
   return true;
 }
 
-void SplitBdf::step() {
+void SplitBdf::step(double longest) {
+  memory_.step = std::min(memory_.step, longest);
   std::optional<NumericsFailure> cause;
   for (int k = 0; k < most_attempts; ++k)
     try {

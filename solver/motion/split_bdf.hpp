@@ -13,6 +13,7 @@
 #include "observe/step_memory.hpp"
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace capsule {
@@ -36,8 +37,8 @@ public:
   // Goes on from where another one was.
   SplitBdf(SplitEquations equations, StepMemory memory, double tolerance);
 
-  // One step. Throws what the rate throws, or NumericsFailure("step"), when no step is short enough.
-  void step();
+  // One step, not longer than given. Throws what the rate throws, or NumericsFailure("step"), when no step is short enough.
+  void step(double longest = std::numeric_limits<double>::infinity());
   double time() const { return memory_.past[0].time; }
   double previous_time() const { return memory_.past.at(1).time; }
   // At a time of the last step, from the polynomial of its order: the state, the rate, and what came with it.

@@ -10,8 +10,9 @@ namespace capsule {
 struct StepMemory {
   struct Point {
     double time = 0;
-    Vector state, load, rate; // load and rate: where the rate was asked for
-    Vector further = {};      // what came with the rate
+    Vector state, load, rate;  // load and rate: where the rate was asked for
+    Vector rate_at_state = {}; // to first order in the distance of the two
+    Vector further = {};       // what came with the rate
   };
   // A matrix of an earlier state, and the steps since.
   struct Frozen {

@@ -151,6 +151,7 @@ Json to_json(const StepMemory &memory) {
                     {"state", packed(point.state.data(), point.state.size())},
                     {"load", packed(point.load.data(), point.load.size())},
                     {"rate", packed(point.rate.data(), point.rate.size())},
+                    {"rate_at_state", packed(point.rate_at_state.data(), point.rate_at_state.size())},
                     {"further", packed(point.further.data(), point.further.size())}});
   const auto frozen = [](const StepMemory::Frozen &matrix) -> Json {
     return {{"at", packed(matrix.at.data(), matrix.at.size())}, {"age", matrix.age}};
@@ -169,7 +170,8 @@ StepMemory step_memory_of(const Json &json) {
   StepMemory memory;
   for (const Json &point : json.at("past"))
     memory.past.push_back({exact(point.at("time")), unpacked(point.at("state")), unpacked(point.at("load")),
-                           unpacked(point.at("rate")), unpacked(point.at("further"))});
+                           unpacked(point.at("rate")), unpacked(point.at("rate_at_state")),
+                           unpacked(point.at("further"))});
   const auto frozen = [](const Json &matrix) -> StepMemory::Frozen {
     return {unpacked(matrix.at("at")), matrix.at("age")};
   };

@@ -56,7 +56,7 @@ inline Checkpoint random_checkpoint() {
   checkpoint.followers = {{{checkpoint.series[4], checkpoint.series[1]}, {checkpoint.profiles[1]}}, {}};
   checkpoint.memory.past = {{number(), random_vector(24, random), random_vector(24, random),
                              random_vector(24, random), random_vector(4, random)},
-                            {number(), random_vector(24, random), {}, random_vector(24, random), {}}};
+                            {number(), random_vector(24, random), {}, random_vector(24, random), {}, {}}};
   checkpoint.memory.order = 3;
   checkpoint.memory.steps_at_order = 2;
   checkpoint.memory.step = number();

@@ -57,8 +57,9 @@ BOOST_AUTO_TEST_CASE(checkpoint_comes_back_bit_by_bit) {
   for (std::size_t i = 0; i < memory.past.size(); ++i) {
     const StepMemory::Point &point = memory.past[i], &expected = written.memory.past[i];
     BOOST_TEST(same(point.time, expected.time));
-    BOOST_TEST(equal({point.state, point.load, point.rate, point.further},
-                     {expected.state, expected.load, expected.rate, expected.further}));
+    BOOST_TEST(
+        equal({point.state, point.load, point.rate, point.rate_at_state, point.further},
+              {expected.state, expected.load, expected.rate, expected.rate_at_state, expected.further}));
   }
   BOOST_TEST(memory.order == 3u);
   BOOST_TEST(memory.steps_at_order == 2u);
