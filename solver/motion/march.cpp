@@ -174,14 +174,15 @@ private:
     return run_steps(integrator, [&] { integrator.step(longest_step()); });
   }
 
-  // Rows are interpolated: a step passes a few of them at most.
+  // Rows are interpolated: a step passes a few of them at most. The companion's are longer there, too, or both would have the
+  // same error.
   double longest_step() const {
-    constexpr double rows_in_a_step = 2;
+    const double rows = role_ == Role::main ? 2 : 4;
     double longest = std::numeric_limits<double>::infinity();
     if (input_.until.time && !input_.until.by_place())
-      longest = rows_in_a_step * *input_.until.time / rows_in_time;
+      longest = rows * *input_.until.time / rows_in_time;
     if (const double v_g = record_.series.back().v_g; v_g > 0 && input_.until.by_place())
-      longest = rows_in_a_step * row_spacing / v_g;
+      longest = rows * row_spacing / v_g;
     return longest;
   }
 
