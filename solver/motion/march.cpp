@@ -177,7 +177,7 @@ private:
   // Rows are interpolated: a step passes a few of them at most. The companion's are longer there, too, or both would have the
   // same error.
   double longest_step() const {
-    const double rows = role_ == Role::main ? 2 : 4;
+    const double rows = role_ == Role::main ? 2 : 3;
     double longest = std::numeric_limits<double>::infinity();
     if (input_.until.time && !input_.until.by_place())
       longest = rows * *input_.until.time / rows_in_time;
