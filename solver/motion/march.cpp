@@ -174,11 +174,13 @@ private:
     return run_steps(integrator, [&] { integrator.step(longest_step()); });
   }
 
-  // Rows are interpolated: a step passes a few of them at most. The companion's are longer there, too, or both would have the
-  // same error.
+  // Rows are interpolated: a step passes two of them at most. The companion's are as long as its error allows, or both would
+  // have the same error.
   double longest_step() const {
-    const double rows = role_ == Role::main ? 2 : 3;
+    constexpr double rows = 2;
     double longest = std::numeric_limits<double>::infinity();
+    if (role_ == Role::companion)
+      return longest;
     if (input_.until.time && !input_.until.by_place())
       longest = rows * *input_.until.time / rows_in_time;
     if (const double v_g = record_.series.back().v_g; v_g > 0 && input_.until.by_place())
