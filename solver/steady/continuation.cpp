@@ -7,12 +7,14 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 
 namespace capsule {
 namespace {
 
 constexpr double smallest_step = 1e-6;
 constexpr double largest_slack = 5e-7;
+constexpr double work_of_residual = 0.06; // of a linearisation
 
 // Factor from one step to the next. The first guess bends with the branch, so its error, and with it the contraction of
 // Newton's method, is of third order in the step.
@@ -23,8 +25,7 @@ double step_factor(double contraction) {
 
 } // namespace
 
-bool poorly_resolved(const SteadySystem &system, const Vector &unknowns) {
-  constexpr double largest_unresolved_part = 1e-6;
+bool poorly_resolved(const SteadySystem &system, const Vector &unknowns, double largest_unresolved_part) {
   return std::abs(unknowns[unknowns.size() - 1]) > largest_slack ||
          unresolved_part(system.membrane().basis, unknowns.head(2 * system.nodes())) >
              largest_unresolved_part;
@@ -80,33 +81,62 @@ Vector Branch::slope_in_parameter(const BranchPoint &at, const SteadySystem::Lin
   return path_.slope(at.parameter) * slopes(*system_, at.unknowns, linear, std::span(&path_.key(), 1)).col(0);
 }
 
-// The point at a length `step` along the tangent, from a guess that bends away from it.
+// Derivative of the equations along a direction, by differences.
+Vector Branch::derivative_along(const BranchPoint &at, const Vector &direction) const {
+  const Eigen::Index m = at.unknowns.size();
+  const double h = 1e-5 / std::sqrt(weighted(direction, direction));
+  const auto residual = [&](double part) {
+    spend(control_, work_of_residual, static_cast<double>(system_->nodes()));
+    system_->set_parameters(path_.at(at.parameter + part * direction[m]));
+    return system_->residual(at.unknowns + part * direction.head(m));
+  };
+  Vector derivative = (residual(h) - residual(-h)) / (2 * h);
+  system_->set_parameters(path_.at(at.parameter));
+  return derivative;
+}
+
+// The point at a length `step` along the tangent, from a guess that bends away from it. A matrix is kept while corrections
+// shrink fast with it.
 Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
                                   double tolerance, const Vector &curvature) const {
   constexpr double small_correction = 1e-3; // after it the parameter's column is not computed again
+  constexpr double fast = 0.1;              // ratio of corrections with the same matrix
   const Eigen::Index m = from.unknowns.size();
   const Eigen::Index n = system_->nodes();
   const Vector row = row_across(tangent);
   const Vector advance = step * tangent + step * step / 2 * curvature;
   BranchPoint now{from.unknowns + advance.head(m), from.parameter + advance[m]};
+  const auto length_of = [&](const Vector &change) { return std::sqrt(weighted(change, change)); };
   Vector slope;
+  std::optional<Eigen::PartialPivLU<Matrix>> factors;
   double before = 1, contraction = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    spend(control_, 1, static_cast<double>(n));
     system_->set_parameters(path_.at(now.parameter));
     system_->fit_tube(now.unknowns);
-    const SteadySystem::Linearisation linear = system_->linearise(now.unknowns);
-    if (before > small_correction)
-      slope = slope_in_parameter(now, linear);
-    Matrix bordered(m + 1, m + 1);
-    bordered << linear.jacobian, slope, row.transpose();
-    Vector right = Vector::Zero(m + 1);
-    right.head(m) = -linear.residual;
-    right[m] = step - row.head(2 * n).dot((now.unknowns - from.unknowns).head(2 * n)) -
-               row[m] * (now.parameter - from.parameter);
-    const Eigen::PartialPivLU<Matrix> factors(bordered);
-    const Vector change = factors.solve(right);
-    const double length = std::sqrt(weighted(change, change));
+    const auto correction = [&](const Vector &residual) -> Vector {
+      Vector right(m + 1);
+      right << -residual, step - row.head(2 * n).dot((now.unknowns - from.unknowns).head(2 * n)) -
+                              row[m] * (now.parameter - from.parameter);
+      return factors->solve(right);
+    };
+    Vector change;
+    bool is_kept = factors.has_value();
+    if (is_kept) {
+      spend(control_, work_of_residual, static_cast<double>(n));
+      change = correction(system_->residual(now.unknowns));
+      is_kept = length_of(change) < fast * before;
+    }
+    if (!is_kept) {
+      spend(control_, 1, static_cast<double>(n));
+      const SteadySystem::Linearisation linear = system_->linearise(now.unknowns);
+      if (before > small_correction)
+        slope = slope_in_parameter(now, linear);
+      Matrix bordered(m + 1, m + 1);
+      bordered << linear.jacobian, slope, row.transpose();
+      factors.emplace(bordered);
+      change = correction(linear.residual);
+    }
+    const double length = length_of(change);
     if (!contracts(iteration, before, length) || system_->admissible_step(now.unknowns, change.head(m)) < 1)
       no_convergence();
     // The second correction may be large although the third is tiny: the mean of both ratios counts. Where the matrix is
@@ -123,13 +153,19 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     // A large slack is the error of a coarse mesh only if no correction is left: then corrections go on for longer.
     const bool slack_is_small = std::abs(now.unknowns[m - 1]) <= largest_slack;
     const double enough = slack_is_small ? tolerance : std::max(tolerance / 100, position_tolerance);
-    if (next < enough * std::sqrt(weight_)) {
-      right.setZero();
-      right[m] = 1;
-      Vector direction = factors.solve(right);
-      direction /= std::sqrt(weighted(direction, direction));
-      return {now, direction, contraction};
+    if (!(next < enough * std::sqrt(weight_)))
+      continue;
+    if (is_kept && !slack_is_small) { // with a kept matrix the slack converges last
+      factors.reset();
+      continue;
     }
+    Vector direction = factors->solve(Vector(Vector::Unit(m + 1, m)));
+    if (is_kept) { // the matrix is of a point before: once more, with the derivative along the direction
+      Vector miss(m + 1);
+      miss << -derivative_along(now, direction), 1 - row.dot(direction);
+      direction += factors->solve(miss);
+    }
+    return {now, direction / length_of(direction), contraction};
   }
   no_convergence();
 }

@@ -16,13 +16,17 @@ struct BranchPoint {
 
 // Whether a state is poorly resolved: then the exact derivative differs from that of the discrete equations, and Newton's
 // method soon fails.
-bool poorly_resolved(const SteadySystem &system, const Vector &unknowns);
+constexpr double fine_tail = 1e-6; // of a shape, in the last waves (unresolved_part in node_density.hpp)
+bool poorly_resolved(const SteadySystem &system, const Vector &unknowns,
+                     double largest_unresolved_part = fine_tail);
 
 class Branch {
 public:
-  // Lengths along the branch; and how far, in displacement, the next correction of a point would move it.
+  // Lengths along the branch; how far, in displacement, the next correction of a point would move it; and the unresolved part
+  // of a shape above which it wants a finer mesh.
   struct Steps {
     double first, largest, tolerance;
+    double largest_unresolved_part = fine_tail;
   };
   // Whether the parameter grows along the branch.
   enum class Trend { falls, grows };
@@ -48,7 +52,9 @@ public:
 
   // To the next point. Throws NumericsFailure when the smallest step fails; the branch stays where it was.
   void advance();
-  bool wants_a_finer_mesh() const { return poorly_resolved(*system_, point_.unknowns); }
+  bool wants_a_finer_mesh() const {
+    return poorly_resolved(*system_, point_.unknowns, steps_.largest_unresolved_part);
+  }
   // The steady state between the last two points at a parameter between theirs.
   BranchPoint at_parameter(double parameter) const;
   // Throws NumericsFailure if the membrane has softened in the last step, before the parameter came to `end`. It says from
@@ -71,6 +77,7 @@ private:
     // Ratio of the second correction to the first, or with a third one a mean of both ratios; 0 after one correction.
     double contraction = 0;
   };
+  Vector derivative_along(const BranchPoint &at, const Vector &direction) const;
   Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
                     const Vector &curvature) const;
   Vector curvature() const;

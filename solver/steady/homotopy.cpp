@@ -53,7 +53,11 @@ void Homotopy::refine_at(const Case &input) {
 // Follows the branch, if need be through folds, to its end (true) or to where it needs a finer mesh. When it fails,
 // state_ and place_ hold what was reached.
 bool Homotopy::follow(const KeyPath &path) {
-  const Branch::Steps steps{.first = place_.first_step, .largest = 0.7, .tolerance = 1e-7};
+  const Branch::Steps steps{.first = place_.first_step,
+                            .largest = 0.7,
+                            .tolerance = 1e-7,
+                            .largest_unresolved_part =
+                                10 * fine_tail}; // a way need not be as exact as its end
   constexpr int most_steps = 200;
   constexpr double first_part = -1; // as far as a branch that has turned is followed
   Branch branch(*state_.system, path, {state_.unknowns, place_.part}, place_.direction, steps, place_.trend,

@@ -110,6 +110,14 @@ struct Attempts {
   void add(const std::string &attempt, const NumericsFailure &failure) {
     seen.push_back(fmt::format("{}: {}", attempt, failure.what()));
   }
+
+  NumericsFailure last_word(const std::string &text) const {
+    return {
+        kind,
+        fmt::format("{} ({})", text, seen.empty() ? "relaxing" : fmt::format("{}", fmt::join(seen, "; "))),
+        "try a weaker flow, or a larger membrane.bending_ratio, whose shapes are smoother, "
+        "or begin with a profile of a march (--from)"};
+  }
 };
 
 // Once in a search. A stiff membrane whose law softens proves nothing, but it tells.
@@ -127,36 +135,76 @@ std::optional<SteadyState> by_stiff_membrane(const Case &input, const Control &c
   return {};
 }
 
-// From the end of a march into the tube, or where that is not near enough of one far into it. Between the two it is asked
-// whether the flow is too strong: a long march of a capsule that runs away or wrinkles is dear.
+// From the end of a march to just behind the mouth.
 std::optional<SteadyState> by_march(const Case &input, const Control &control, const MarchToRest &march,
                                     Attempts &attempts) {
   try {
     if (const auto end = march(input, MarchLength::into_tube, control))
-      if (auto state = solved_from_profile(input, *end, control))
-        return state;
+      return solved_from_profile(input, *end, control);
   } catch (const NumericsFailure &failure) {
     attempts.add("marched into the tube", failure);
-  }
-  if (auto state = by_stiff_membrane(input, control, attempts))
-    return state;
-  try {
-    if (const auto end = march(input, MarchLength::far_into_tube, control))
-      return from_profile(input, *end, control);
-  } catch (const NumericsFailure &failure) {
-    attempts.add("marched far into the tube", failure);
-    if (failure.kind == failure_kind::softening || failure.kind == failure_kind::wrinkled)
+    if (failure.kind == failure_kind::wrinkled)
       attempts.kind = failure.kind;
   }
   return {};
 }
 
+// By branches from a small stiff sphere, the last one of growing flow if the case's is stronger than the given one.
+std::optional<SteadyState> from_a_stiff_sphere_at(double strength, const Case &input, const Control &control,
+                                                  Attempts &attempts) {
+  const double flow = input.flow.capillary_number;
+  bool only_flow_is_left = false;
+  try {
+    Homotopy homotopy = in_a_flow(strength, input, control);
+    only_flow_is_left = flow > strength;
+    homotopy.vary(flow_key, flow);
+    return homotopy.state();
+  } catch (const NumericsFailure &failure) {
+    if (only_flow_is_left && ends_branch(failure))
+      throw no_steady_state(failure);
+    attempts.add(fmt::format("from a small stiff sphere at {} = {:.3g}", flow_key, strength), failure);
+  }
+  return {};
+}
+
+// A part of a search, which may cost so much. Throws NumericsFailure where it costs more.
+template <class Part>
+auto within(double most, const Control &control, const Part &part) {
+  double work = 0;
+  Control limited = control;
+  limited.spend = [&](double more) {
+    if (control.spend)
+      control.spend(more);
+    work += more;
+    if (work > most)
+      throw Exhausted{};
+  };
+  try {
+    return part(limited);
+  } catch (const Exhausted &) {
+    if (work <= most) // it is the whole search that has cost too much
+      throw;
+    throw NumericsFailure(failure_kind::unresolved, "it takes too long",
+                          "begin with a profile of a march (--from)");
+  }
+}
+
+// A flat capsule wider than the tube, which a sphere can become.
+bool is_folded(const Case &input) {
+  const Extent size = extent(input.capsule);
+  return input.capsule.shape == CapsuleShape::spheroid && input.flow.type == FlowType::pore &&
+         size.half_width > widest_unsqueezed && size.half_length < size.half_width;
+}
+
 SteadyState searched(const Case &input, const Control &control, const MarchToRest &march,
                      Attempts &attempts) {
+  constexpr double most_work_of_relaxation = 500, most_work_of_a_way = 700;
   const double flow = input.flow.capillary_number;
-  std::optional<NumericsFailure> last;
-  bool has_marched = false;
   const bool fits = extent(input.capsule).half_width <= widest_unsqueezed;
+  const double weakest = input.flow.type == FlowType::extension ? 0 : 0.015; // only a tube squeezes
+  std::vector<double> strengths{std::clamp(flow, weakest, 0.06), 0.03, 0.12};
+  std::optional<NumericsFailure> last;
+  bool has_looked_elsewhere = false;
   constexpr double weakest_part = 0.125;
   // Parts of the flow, in which the capsule may come to rest. Where its law softens before, a branch from a much weaker flow
   // tells where: coarse meshes have states beyond that place, from which no finer mesh goes on.
@@ -168,7 +216,10 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
       weaker = with_number(weaker, key, std::min(area_modulus_to_relax, number(key, input)));
     bool only_flow_is_left = false;
     try {
-      Homotopy homotopy(input, weaker, by_relaxation(weaker, control), control);
+      Homotopy homotopy(input, weaker,
+                        within(most_work_of_relaxation, control,
+                               [&](const Control &limited) { return by_relaxation(weaker, limited); }),
+                        control);
       for (const char *key : area_keys)
         homotopy.vary(key, number(key, input));
       only_flow_is_left = true;
@@ -185,36 +236,37 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
     if (last->kind == failure_kind::unbounded) {
       if (auto state = by_stiff_membrane(input, control, attempts))
         return *state;
-    } else if (march && !has_marched && (part < 1 || last->kind != failure_kind::softening)) {
-      has_marched = true;
-      if (auto state = by_march(input, control, march, attempts))
+    } else if (!has_looked_elsewhere &&
+               (part < 1 || is_folded(input) || last->kind != failure_kind::softening)) {
+      has_looked_elsewhere = true;
+      if (is_folded(input)) {
+        const double strength = strengths.front();
+        strengths.erase(strengths.begin());
+        try {
+          if (auto state = within(most_work_of_a_way, control, [&](const Control &limited) {
+                return from_a_stiff_sphere_at(strength, input, limited, attempts);
+              }))
+            return *state;
+        } catch (const NumericsFailure &failure) {
+          if (ends_branch(failure))
+            throw;
+          attempts.add("from a small stiff sphere", failure);
+        }
+      }
+      if (march)
+        if (auto state = by_march(input, control, march, attempts))
+          return *state;
+      if (auto state = by_stiff_membrane(input, control, attempts))
         return *state;
     }
     part = last->kind == failure_kind::softening && part > weakest_part ? weakest_part : part / 2;
   }
-  if (input.capsule.shape != CapsuleShape::spheroid) // a small stiff sphere does not become one
+  if (input.capsule.shape != CapsuleShape::spheroid)
     throw of_this_way(*last);
-  std::optional<NumericsFailure> first;
-  const double weakest = input.flow.type == FlowType::extension ? 0 : 0.03; // only a tube squeezes
-  for (const double strength : {std::clamp(flow, weakest, 0.06), 0.02, 0.12}) {
-    bool only_flow_is_left = false;
-    try {
-      Homotopy homotopy = in_a_flow(strength, input, control);
-      only_flow_is_left = flow > strength;
-      homotopy.vary(flow_key, flow);
-      return homotopy.state();
-    } catch (const NumericsFailure &failure) {
-      if (only_flow_is_left && ends_branch(failure))
-        throw no_steady_state(failure);
-      if (!first)
-        first = failure;
-      attempts.add(fmt::format("from a small stiff sphere at {} = {:.3g}", flow_key, strength), failure);
-    }
-  }
-  const NumericsFailure last_word = of_this_way(*first);
-  throw NumericsFailure(last_word.kind,
-                        fmt::format("no way found from a small stiff sphere: {}", last_word.what()),
-                        last_word.advice);
+  for (const double strength : strengths)
+    if (auto state = from_a_stiff_sphere_at(strength, input, control, attempts))
+      return *state;
+  throw attempts.last_word("no steady state found");
 }
 
 bool is_unstable(const SteadyState &state) {
@@ -255,13 +307,7 @@ SteadyState without_neighbours(const Case &input, const Control &control, const 
         return *other;
     return state;
   } catch (const Exhausted &) {
-    throw NumericsFailure(
-        attempts.kind,
-        fmt::format("no steady state found in the work that a search may cost ({})",
-                    attempts.seen.empty() ? "relaxing" : fmt::format("{}", fmt::join(attempts.seen, "; "))),
-        "try a weaker flow, or a larger membrane.bending_ratio, whose shapes are smoother, "
-        "or begin with a profile of a "
-        "march (--from)");
+    throw attempts.last_word("no steady state found in the work that a search may cost");
   }
 }
 

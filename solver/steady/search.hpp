@@ -1,12 +1,12 @@
 #pragma once
 // A case's steady state from nothing. At first the undeformed capsule relaxes in the tube with a stiff membrane, which is
-// softened then (relaxation.hpp). If that fails, or leads to an unstable state, the capsule marches from the case's start,
-// first to just behind the mouth.
-// Or it relaxes in a weaker flow, from which a branch (homotopy.hpp) leads to the case's own. Where it does not come to rest
-// at all, branches lead from a small stiff sphere in a weak flow to the case's capsule, one key after the other, the capillary
-// number last. The mesh gets finer on the way where it must.
+// softened then (relaxation.hpp). If that fails, branches (homotopy.hpp) lead to a flat capsule that is wider than the tube from
+// a small stiff sphere, one key after the other, the capillary number last. Any other capsule, and a flat one that these
+// lose, marches from the case's start to just behind the mouth.
 // A flow in which the capsule runs away, or in which neither leads to a state, may be too strong: a stiff membrane tells
-// (strong_flow.hpp).
+// (strong_flow.hpp). Then the capsule relaxes in weaker flows, from which a branch leads to the case's own, and last come
+// the branches from a small stiff sphere for every capsule. A state that is unstable is left for one that a long march
+// reaches, if that is stable.
 // A train begins with one capsule alone.
 #include "observe/outcome.hpp"
 #include "steady/mesh_change.hpp"
@@ -26,8 +26,7 @@ using MarchToRest = std::function<std::optional<Profile>(const Case &, MarchLeng
 
 // Throws NumericsFailure, of the kind "fold" when there is no steady state because the branch of growing capillary
 // numbers turns back and the membrane runs away behind the fold: the text says where. Any other turn says nothing
-// about the case, and is "unresolved"; "unbounded" where the capsule ran away in the last flow that was tried. Throws
-// Interrupted.
+// about the case, and is "unresolved", or "wrinkled" or "softening" if that was seen. Throws Interrupted.
 SteadyState search_steady(const Case &input, const Control &control, const MarchToRest &march = {});
 
 } // namespace capsule
