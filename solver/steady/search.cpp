@@ -198,7 +198,7 @@ bool is_folded(const Case &input) {
 
 SteadyState searched(const Case &input, const Control &control, const MarchToRest &march,
                      Attempts &attempts) {
-  constexpr double most_work_of_relaxation = 500, most_work_of_a_way = 700;
+  constexpr double most_work_of_a_way = 700;
   const double flow = input.flow.capillary_number;
   const bool fits = extent(input.capsule).half_width <= widest_unsqueezed;
   const double weakest = input.flow.type == FlowType::extension ? 0 : 0.015; // only a tube squeezes
@@ -216,10 +216,7 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
       weaker = with_number(weaker, key, std::min(area_modulus_to_relax, number(key, input)));
     bool only_flow_is_left = false;
     try {
-      Homotopy homotopy(input, weaker,
-                        within(most_work_of_relaxation, control,
-                               [&](const Control &limited) { return by_relaxation(weaker, limited); }),
-                        control);
+      Homotopy homotopy(input, weaker, by_relaxation(weaker, control), control);
       for (const char *key : area_keys)
         homotopy.vary(key, number(key, input));
       only_flow_is_left = true;
