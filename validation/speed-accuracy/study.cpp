@@ -11,6 +11,7 @@
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
 #include "motion/split_bdf.hpp"
+#include "motion/time_step.hpp"
 #include "observe/gauge.hpp"
 #include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"

@@ -39,11 +39,12 @@ std::function<Vector()> stepper(Explicit scheme, const Rate &rate, const Vector 
       state += step / 2 * (before + rate(state + step * before));
       return state;
     };
-  return [integrator = ExplicitIntegrator(scheme == Explicit::euler ? Scheme::euler : Scheme::rk4, rate, 0,
-                                          start, step)]() mutable {
-    integrator.step();
-    return integrator.state_at(integrator.time());
-  };
+  return
+      [integrator = ExplicitIntegrator(scheme == Explicit::euler ? Scheme::euler : Scheme::rk4, rate,
+                                       {.time = 0, .state = start, .load = {}, .rate = {}}, step)]() mutable {
+        integrator.step();
+        return integrator.state_at(integrator.time());
+      };
 }
 
 struct Setting {
