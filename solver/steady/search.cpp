@@ -167,20 +167,25 @@ std::optional<SteadyState> from_a_stiff_sphere_at(double strength, const Case &i
   return {};
 }
 
-// A part of a search, which may cost so much. Throws NumericsFailure where it costs more.
-template <class Part>
-auto within(double most, const Control &control, const Part &part) {
-  double work = 0;
+// Counts the work that is spent; beyond the most of it Exhausted is thrown.
+Control counting(double &work, double most, const Control &control) {
   Control limited = control;
-  limited.spend = [&](double more) {
-    if (control.spend)
-      control.spend(more);
+  limited.spend = [&work, most, spend = control.spend](double more) {
+    if (spend)
+      spend(more);
     work += more;
     if (work > most)
       throw Exhausted{};
   };
+  return limited;
+}
+
+// A part of a search, which may cost so much. Throws NumericsFailure where it costs more.
+template <class Part>
+auto within(double most, const Control &control, const Part &part) {
+  double work = 0;
   try {
-    return part(limited);
+    return part(counting(work, most, control));
   } catch (const Exhausted &) {
     if (work <= most) // it is the whole search that has cost too much
       throw;
@@ -288,14 +293,7 @@ std::optional<SteadyState> stable_state_by_march(const Case &input, const Contro
 // Within the work that a search may cost.
 SteadyState without_neighbours(const Case &input, const Control &control, const MarchToRest &march) {
   double work = 0;
-  Control limited = control;
-  limited.spend = [&](double more) {
-    if (control.spend)
-      control.spend(more);
-    work += more;
-    if (work > most_work_of_search)
-      throw Exhausted{};
-  };
+  const Control limited = counting(work, most_work_of_search, control);
   Attempts attempts;
   try {
     SteadyState state = searched(input, limited, march, attempts);
