@@ -17,16 +17,7 @@ TOML
 
 "$capsule" run case.toml --out whole
 
-# Killed as soon as there is a checkpoint of a part of the way.
-"$capsule" run case.toml --out killed &
-process=$!
-until "$capsule" show case.toml --out killed | grep -q '% done'; do
-  kill -0 "$process" || fail 'show does not know the checkpoint'
-  sleep 0.05
-done
-kill -9 "$process" || fail 'finished without a checkpoint'
-wait "$process" && fail 'survived being killed'
-[ ! -e killed/summary.json ] || fail 'a killed run has a summary'
+killed_on_the_way case.toml killed
 cp -r killed at_the_kill
 "$capsule" run case.toml --out killed
 
@@ -35,17 +26,8 @@ cp -r killed at_the_kill
 short_case | sed 's/^accuracy.*/accuracy = 1e-5/' >stops.toml
 printf 'until.time = 1\nmesh.membrane = 200\n' >>stops.toml
 "$capsule" run stops.toml --out stops
-limit=$(sed -n 's/.*"wall_seconds": \([0-9.]*\).*/\1/p' stops/summary.json | awk '{ print 0.1 + $1 / 8 }')
 numbers stops >expected
-calls=0
-code=130
-while [ "$code" -eq 130 ]; do
-  calls=$((calls + 1))
-  [ "$calls" -lt 60 ] || fail 'a march does not get further'
-  code=0
-  "$capsule" run stops.toml --out parts --time-limit "$limit" || code=$?
-done
-[ "$code" -eq 0 ] && [ "$calls" -gt 2 ] || fail "ended with $code after $calls calls"
+in_parts stops.toml parts stops 8
 numbers parts | cmp - expected || fail 'a march in parts is another one'
 
 # Interrupted by the user, and by the time limit, until it is done.

@@ -44,3 +44,29 @@ numbers() {
     esac
   done
 }
+# killed_on_the_way CASE DIRECTORY: the run is killed as soon as there is a checkpoint of a part of the way
+killed_on_the_way() {
+  "$capsule" run "$1" --out "$2" &
+  process=$!
+  until "$capsule" show "$1" --out "$2" | grep -q '% done'; do
+    kill -0 "$process" || fail 'show does not know the checkpoint'
+    sleep 0.05
+  done
+  kill -9 "$process" || fail 'finished without a checkpoint'
+  wait "$process" && fail 'survived being killed'
+  [ ! -e "$2/summary.json" ] || fail 'a killed run has a summary'
+}
+# in_parts CASE DIRECTORY WHOLE PARTS: the run is stopped again and again, after a share of the time that WHOLE took, on any
+# machine; each time it gets further
+in_parts() {
+  limit=$(sed -n 's/.*"wall_seconds": \([0-9.]*\).*/\1/p' "$3/summary.json" | awk -v parts="$4" '{ print 0.1 + $1 / parts }')
+  calls=0
+  code=130
+  while [ "$code" -eq 130 ]; do
+    calls=$((calls + 1))
+    [ "$calls" -lt 60 ] || fail 'a march does not get further'
+    code=0
+    "$capsule" run "$1" --out "$2" --time-limit "$limit" || code=$?
+  done
+  [ "$code" -eq 0 ] && [ "$calls" -gt 2 ] || fail "ended with $code after $calls calls"
+}
