@@ -1,4 +1,5 @@
 #include "motion/march.hpp"
+#include "base/decompositions.hpp"
 #include "base/failure.hpp"
 #include "case/case.hpp"
 #include "geometry/gap.hpp"
@@ -147,7 +148,7 @@ private:
   void require_stable_step(const Vector &position) const {
     if (!dynamics_.jacobian)
       return;
-    const double fastest = dynamics_.jacobian(position).eigenvalues().cwiseAbs().maxCoeff();
+    const double fastest = eigenvalues(dynamics_.jacobian(position)).cwiseAbs().maxCoeff();
     const double stable = stability_limit(input_.time.scheme) / fastest;
     if (input_.time.step > stable)
       throw NumericsFailure(

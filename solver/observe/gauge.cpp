@@ -2,7 +2,6 @@
 #include "electric/long_conductor.hpp"
 #include "geometry/quadrature.hpp"
 #include <algorithm>
-#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
@@ -33,19 +32,6 @@ Sampling pole_to_pole(const MeridianBasis &basis) {
 struct Maximum {
   double value, index;
 };
-
-// Of the values at 0, 1, 2, 3, 4 in that of the quartic through them.
-std::array<double, 5> quartic_weights(double place) {
-  std::array<double, 5> weights{};
-  for (int i = 0; i < 5; ++i) {
-    double weight = 1;
-    for (int j = 0; j < 5; ++j)
-      if (j != i)
-        weight *= (place - j) / (i - j);
-    weights[static_cast<std::size_t>(i)] = weight;
-  }
-  return weights;
-}
 
 // Of the quartic through the largest sample and two neighbours on each side; next to an end, of the parabola through
 // three.
@@ -180,15 +166,13 @@ double Gauge::film(const Vector &position) const {
     nearest = std::min(nearest, distance[k]);
   }
   // The distance has a kink in its slope's change where the mouth ends: it is taken from the smooth meridian, not interpolated.
+  const Vector five = Vector::LinSpaced(5, 0, 4);
   const auto between = [&](Eigen::Index middle) {
     const Eigen::Index first = std::clamp<Eigen::Index>(middle - 2, 0, last_point - 4);
     const auto along = [&, first](double place) {
-      const std::array<double, 5> weights = quartic_weights(place - static_cast<double>(first));
-      double at_x = 0, at_r = 0;
-      for (Eigen::Index k = 0; k < 5; ++k) {
-        at_x += weights[static_cast<std::size_t>(k)] * x[first + k];
-        at_r += weights[static_cast<std::size_t>(k)] * r[first + k];
-      }
+      const Matrix quartic = lagrange_matrix(five, Vector::Constant(1, place - static_cast<double>(first)));
+      const double at_x = quartic.row(0).dot(x.segment<5>(first));
+      const double at_r = quartic.row(0).dot(r.segment<5>(first));
       return wall_distance(*pore_, at_x, at_r);
     };
     constexpr int half_of_the_digits = 26; // in bits: a minimum is flat
