@@ -3,6 +3,7 @@
 //   A "position" or "velocity" of the membrane is one Vector of 2N numbers: the N axial components at the
 //   nodes of the meridian, then the N radial ones.
 #include <Eigen/Dense>
+#include <vector>
 
 namespace capsule {
 
@@ -10,6 +11,11 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 // Rows are contiguous: one row holds what all sources do to one target.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// A square matrix times `blocks`, of the same size, which has no entries between different parts. A part is the list of its
+// indices; each index is in one part. The cost falls with the number of parts.
+Matrix times_blocks(const Matrix &matrix, const Matrix &blocks,
+                    const std::vector<std::vector<Eigen::Index>> &parts);
 
 } // namespace capsule
 

@@ -33,17 +33,6 @@ struct Loads {
   }
 };
 
-// A matrix times one that has no entries between different membranes, which stand in these rows.
-Matrix times_blocks(const Matrix &matrix, const Matrix &blocks,
-                    const std::vector<std::vector<Eigen::Index>> &rows) {
-  Matrix product(matrix.rows(), blocks.cols());
-  for (const std::vector<Eigen::Index> &of_membrane : rows) {
-    const Matrix columns = matrix(Eigen::all, of_membrane), block = blocks(of_membrane, of_membrane);
-    product(Eigen::all, of_membrane) = columns * block;
-  }
-  return product;
-}
-
 Dynamics standard_dynamics(const Case &physics) {
   Dynamics dynamics;
   dynamics.scene = std::make_shared<const Scene>(make_scene(physics));

@@ -167,7 +167,8 @@ private:
                                      return {flow.velocity, further_of(flow)};
                                    },
                                    .mobility = dynamics_.mobility,
-                                   .load_jacobian = dynamics_.load_jacobian};
+                                   .load_jacobian = dynamics_.load_jacobian,
+                                   .parts = rows_};
     SplitBdf integrator = begin([&] {
       return record_.memory.past.empty() ? SplitBdf(equations, record_.time, record_.position, tolerance)
                                          : SplitBdf(equations, record_.memory, tolerance);

@@ -93,7 +93,7 @@ void SplitBdf::find_matrices() {
 
 // All that follows from both matrices.
 void SplitBdf::multiply() {
-  jacobian_ = mobility_ * load_jacobian_;
+  jacobian_ = times_blocks(mobility_, load_jacobian_, equations_.parts);
   remainders_.clear();
   for (const StepMemory::Point &point : memory_.past)
     remainders_.emplace_back(point.rate - mobility_ * point.load);
@@ -274,7 +274,7 @@ bool SplitBdf::try_step() {
   }
   choose_next(trial, state, std::max(error(trial, trial.order, state), left));
   last_order_ = trial.order;
-  const Vector rate_at_state = rate + mobility_ * (load_jacobian_ * last);
+  const Vector rate_at_state = rate + jacobian_ * last;
   memory_.past.insert(memory_.past.begin(), {trial.time, state, load, rate, rate_at_state, further});
   remainders_.insert(remainders_.begin(), rate - mobility_ * load);
   if (available() > highest_order + 2) {
