@@ -34,10 +34,11 @@ public:
   Record(const KeyPath &path, double viscosity_ratio, const Control &control)
       : path_(path), viscosity_ratio_(viscosity_ratio), control_(control) {}
 
-  BranchRow add(const SteadyState &state, double part, bool profile) {
+  // The state's system has the parameters of this part of the path.
+  BranchRow add(const SteadyState &state, const SteadySystem::Linearisation &linear, double part,
+                bool profile) {
     throw_if_interrupted(control_);
-    state.system->set_parameters(path_.at(part));
-    SteadyRecord record = record_steady(state, viscosity_ratio_);
+    SteadyRecord record = record_steady(state, linear, viscosity_ratio_);
     record.row.time = path_.value(part); // a branch has no time: the key's value takes its place
     record.profile.time = record.row.time;
     const BranchRow point{path_.value(part), record.row, record.further.at("growth_rate")};
@@ -76,7 +77,7 @@ public:
   void begin(const RefinedState &start) {
     outcome().error_estimate = start.error_estimate;
     state_ = start.state;
-    outcome().branch.push_back(record_.add(state_, 0, true));
+    outcome().branch.push_back(record({state_.unknowns, 0}, true));
     branch_ = std::make_unique<Branch>(*state_.system, path_, BranchPoint{state_.unknowns, 0},
                                        Branch::upwards(*state_.system), steps);
   }
@@ -101,7 +102,7 @@ public:
     // A stretch alone is no proof: steady states near a fold may reach it. Behind the fold it grows without end.
     const double enough = outcome().folds.empty() ? farthest_stretch : runaway_stretch;
     const bool runs_away = state_.system->largest_stretch(branch_->point().unknowns) > enough;
-    outcome().branch.push_back(record(branch_->point(), runs_away));
+    outcome().branch.push_back(record_point(runs_away));
     if (runs_away) {
       outcome().status = Status::unbounded;
       outcome().message =
@@ -126,7 +127,14 @@ public:
 private:
   BranchRow record(const BranchPoint &point, bool profile) {
     state_.unknowns = point.unknowns;
-    return record_.add(state_, point.parameter, profile);
+    state_.system->set_parameters(path_.at(point.parameter));
+    return record_.add(state_, state_.system->linearise(point.unknowns), point.parameter, profile);
+  }
+  BranchRow record_point(bool profile) {
+    const BranchPoint &point = branch_->point();
+    state_.unknowns = point.unknowns;
+    state_.system->set_parameters(path_.at(point.parameter));
+    return record_.add(state_, branch_->linearisation(), point.parameter, profile);
   }
   // Goes on from a point on a finer mesh; false if there is none, or the branch is not found on it.
   bool refine_mesh(const BranchPoint &point, const Vector &tangent, Branch::Trend trend) {

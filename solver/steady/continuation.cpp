@@ -36,9 +36,10 @@ Branch::Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vect
     : system_(&system), path_(std::move(path)), control_(std::move(control)), point_(std::move(start)),
       steps_(steps), step_(steps.first), trend_(trend), trend_before_(trend) {
   const Corrected first = correct(point_, direction / std::sqrt(weighted(direction, direction)), 0,
-                                  position_tolerance, Vector::Zero(direction.size()));
+                                  position_tolerance, Vector::Zero(direction.size()), {});
   point_ = first.point;
   tangent_ = first.tangent;
+  slopes_ = first.slopes;
 }
 
 Vector Branch::upwards(const SteadySystem &system) {
@@ -81,91 +82,71 @@ Vector Branch::slope_in_parameter(const BranchPoint &at, const SteadySystem::Lin
   return path_.slope(at.parameter) * slopes(*system_, at.unknowns, linear, std::span(&path_.key(), 1)).col(0);
 }
 
-// Derivative of the equations along a direction, by differences.
-Vector Branch::derivative_along(const BranchPoint &at, const Vector &direction) const {
-  const Eigen::Index m = at.unknowns.size();
-  const double h = 1e-5 / std::sqrt(weighted(direction, direction));
-  const auto residual = [&](double part) {
-    spend(control_, work_of_residual, static_cast<double>(system_->nodes()));
-    system_->set_parameters(path_.at(at.parameter + part * direction[m]));
-    return system_->residual(at.unknowns + part * direction.head(m));
-  };
-  Vector derivative = (residual(h) - residual(-h)) / (2 * h);
-  system_->set_parameters(path_.at(at.parameter));
-  return derivative;
-}
-
-// The point at a length `step` along the tangent, from a guess that bends away from it. A matrix is kept while corrections
-// shrink fast with it.
+// The point at a length `step` along the tangent, from a guess that bends away from it. Corrections begin with the slopes at
+// a point nearby, if there are any, and go on with those at the place that they have led to where they do not shrink.
 Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
-                                  double tolerance, const Vector &curvature) const {
-  constexpr double small_correction = 1e-3; // after it the parameter's column is not computed again
-  constexpr double fast = 0.1;              // ratio of corrections with the same matrix
+                                  double tolerance, const Vector &curvature,
+                                  std::optional<Slopes> slopes) const {
+  constexpr int most_linearisations = 6, most_kept = 12;
+  constexpr double fast = 0.7; // ratio of corrections for which a matrix is kept
   const Eigen::Index m = from.unknowns.size();
-  const Eigen::Index n = system_->nodes();
   const Vector row = row_across(tangent);
+  const double enough = tolerance * std::sqrt(weight_);
   const Vector advance = step * tangent + step * step / 2 * curvature;
   BranchPoint now{from.unknowns + advance.head(m), from.parameter + advance[m]};
-  const auto length_of = [&](const Vector &change) { return std::sqrt(weighted(change, change)); };
-  Vector slope;
-  std::optional<Eigen::PartialPivLU<Matrix>> factors;
-  double before = 1, contraction = 0;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  std::optional<BroydenCorrections> corrections;
+  double contraction = 0, after_linearisation = 1;
+  const auto start_corrections = [&] {
+    Matrix bordered(m + 1, m + 1);
+    bordered << slopes->linear.jacobian, slopes->in_parameter, row.transpose();
+    corrections.emplace(bordered.partialPivLu());
+  };
+  const auto correction = [&](const Vector &residual) {
+    Vector way(m + 1), all(m + 1);
+    way << now.unknowns - from.unknowns, now.parameter - from.parameter;
+    all << residual, row.dot(way) - step;
+    return corrections->next(all);
+  };
+  const auto place = [&] {
     system_->set_parameters(path_.at(now.parameter));
     system_->fit_tube(now.unknowns);
-    const auto correction = [&](const Vector &residual) -> Vector {
-      Vector right(m + 1);
-      right << -residual, step - row.head(2 * n).dot((now.unknowns - from.unknowns).head(2 * n)) -
-                              row[m] * (now.parameter - from.parameter);
-      return factors->solve(right);
-    };
-    Vector change;
-    bool is_kept = factors.has_value();
-    if (is_kept) {
-      spend(control_, work_of_residual, static_cast<double>(n));
-      change = correction(system_->residual(now.unknowns));
-      is_kept = length_of(change) < fast * before;
-    }
-    if (!is_kept) {
-      spend(control_, 1, static_cast<double>(n));
-      const SteadySystem::Linearisation linear = system_->linearise(now.unknowns);
-      if (before > small_correction)
-        slope = slope_in_parameter(now, linear);
-      Matrix bordered(m + 1, m + 1);
-      bordered << linear.jacobian, slope, row.transpose();
-      factors.emplace(bordered);
-      change = correction(linear.residual);
-    }
-    const double length = length_of(change);
-    if (!contracts(iteration, before, length) || system_->admissible_step(now.unknowns, change.head(m)) < 1)
+  };
+  const auto move = [&](const Vector &change) {
+    if (!contracts(0, 1, change.norm()) || system_->admissible_step(now.unknowns, change.head(m)) < 1)
       no_convergence();
-    // The second correction may be large although the third is tiny: the mean of both ratios counts. Where the matrix is
-    // not quite the derivative, corrections shrink by a constant ratio, however short the step: it is subtracted.
-    const double ratio = length / before;
-    if (iteration == 1)
-      contraction = ratio;
-    else if (iteration == 2)
-      contraction = std::max(std::min(contraction - ratio, std::sqrt(contraction * ratio)), 1e-3);
-    const double next = length * std::min(ratio, 1.0); // about what the next correction would be
-    before = length;
     now.unknowns += change.head(m);
     now.parameter += change[m];
-    // A large slack is the error of a coarse mesh only if no correction is left: then corrections go on for longer.
-    const bool slack_is_small = std::abs(now.unknowns[m - 1]) <= largest_slack;
-    const double enough = slack_is_small ? tolerance : std::max(tolerance / 100, position_tolerance);
-    if (!(next < enough * std::sqrt(weight_)))
-      continue;
-    if (is_kept && !slack_is_small) { // with a kept matrix the slack converges last
-      factors.reset();
-      continue;
+    place();
+  };
+  place();
+  if (slopes)
+    start_corrections();
+  for (int count = 0; count < most_linearisations; ++count) {
+    double before = 1;
+    for (int k = 0; corrections && k < most_kept; ++k) {
+      spend(control_, work_of_residual, static_cast<double>(system_->nodes()));
+      const Vector change = correction(system_->residual(now.unknowns));
+      const double length = std::sqrt(weighted(change, change)), ratio = length / before;
+      if (k == 0 && count == 1)
+        contraction = length / after_linearisation;
+      if (k > 0 && !(ratio < fast))
+        break;
+      move(change);
+      if (length * (k == 0 ? 1 : ratio) < enough)
+        break;
+      before = length;
     }
-    Vector direction = factors->solve(Vector(Vector::Unit(m + 1, m)));
-    if (is_kept) { // the matrix is of a point before: once more, with the derivative along the direction
-      Vector miss(m + 1);
-      miss << -derivative_along(now, direction), 1 - row.dot(direction);
-      direction += factors->solve(miss);
+    spend(control_, 1, static_cast<double>(system_->nodes()));
+    slopes.emplace(system_->linearise(now.unknowns), Vector());
+    slopes->in_parameter = slope_in_parameter(now, slopes->linear);
+    start_corrections();
+    const Vector change = correction(slopes->linear.residual);
+    move(change);
+    after_linearisation = std::sqrt(weighted(change, change));
+    if (after_linearisation < enough) {
+      const Vector direction = corrections->solve(Vector(Vector::Unit(m + 1, m)));
+      return {now, direction / std::sqrt(weighted(direction, direction)), std::move(*slopes), contraction};
     }
-    return {now, direction / length_of(direction), contraction};
   }
   no_convergence();
 }
@@ -186,7 +167,7 @@ void Branch::advance() {
   balance();
   const Vector bend = curvature();
   take_step(step_, smallest_step, [&] {
-    const Corrected next = correct(point_, tangent_, step_, steps_.tolerance, bend);
+    const Corrected next = correct(point_, tangent_, step_, steps_.tolerance, bend, slopes_);
     if (!(weighted(next.tangent, tangent_) > straight))
       return false;
     oldest_ = before_;
@@ -195,6 +176,7 @@ void Branch::advance() {
     ++points_;
     point_ = next.point;
     tangent_ = next.tangent;
+    slopes_ = next.slopes;
     trend_before_ = trend_;
     trend_ = point_.parameter < before_.parameter ? Trend::falls : Trend::grows;
     step_ = std::min(step_factor(next.contraction) * step_, steps_.largest);
@@ -251,18 +233,6 @@ Vector Branch::bend_towards(const BranchPoint &end) const {
   return 2 / (length * length) * (chord - length * tangent_before_);
 }
 
-// The parameter's slope along the arc at a point, up to a positive factor, with the Jacobian of the point itself. That of a
-// tangent (`correct`) is of the last iterate but one, which is not exact enough for a fold.
-double Branch::slope_along_arc(const BranchPoint &point) const {
-  const Eigen::Index m = point.unknowns.size();
-  system_->set_parameters(path_.at(point.parameter));
-  system_->fit_tube(point.unknowns);
-  const SteadySystem::Linearisation linear = system_->linearise(point.unknowns);
-  Matrix bordered(m + 1, m + 1);
-  bordered << linear.jacobian, slope_in_parameter(point, linear), row_across(tangent_before_).transpose();
-  return bordered.partialPivLu().solve(Vector(Vector::Unit(m + 1, m)))[m];
-}
-
 // The point where the parameter's slope along the arc vanishes. The slope is that of the tangents, or, if these do not
 // change sign because the mesh resolves a tip of the shape poorly, a difference of the parameter itself.
 BranchPoint Branch::fold() const {
@@ -272,10 +242,17 @@ BranchPoint Branch::fold() const {
   const Vector bend_after = bend_towards(point_);
   const Vector bend_before = points_ > 2 ? bend_towards(oldest_) : bend_after;
   constexpr double tolerance = 1e-11; // the slope along the arc is as exact as the point
+  Slopes nearby = *slopes_;
   const auto at = [&](double step) {
-    return correct(before_, tangent_before_, step, tolerance, step < 0 ? bend_before : bend_after);
+    Corrected found =
+        correct(before_, tangent_before_, step, tolerance, step < 0 ? bend_before : bend_after, nearby);
+    nearby = found.slopes;
+    return found;
   };
-  const auto by_tangents = [&](double step) { return slope_along_arc(at(step).point); };
+  const auto by_tangents = [&](double step) {
+    const Vector tangent = at(step).tangent;
+    return tangent[tangent.size() - 1];
+  };
   const auto by_differences = [&](double step) {
     return at(step + h).point.parameter - at(step - h).point.parameter;
   };

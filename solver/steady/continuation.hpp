@@ -6,6 +6,7 @@
 #include "case/key_path.hpp"
 #include "observe/outcome.hpp"
 #include "steady/steady_system.hpp"
+#include <optional>
 
 namespace capsule {
 
@@ -39,6 +40,8 @@ public:
   static Vector upwards(const SteadySystem &system);
 
   const BranchPoint &point() const { return point_; }
+  // Where the last correction of the point began, which is nearer than Steps::tolerance.
+  const SteadySystem::Linearisation &linearisation() const { return slopes_->linear; }
   // Length of the next step as Steps::first has it, without a weight.
   double plain_step() const;
   // The direction in which the branch goes on, like `direction` above.
@@ -71,21 +74,24 @@ public:
   BranchPoint before_fold(const BranchPoint &fold, double parameter) const;
 
 private:
+  struct Slopes {
+    SteadySystem::Linearisation linear;
+    Vector in_parameter;
+  };
   struct Corrected {
     BranchPoint point;
     Vector tangent;
-    // Ratio of the second correction to the first, or with a third one a mean of both ratios; 0 after one correction.
-    double contraction = 0;
+    Slopes slopes; // where the last correction began
+    double contraction =
+        0; // from Newton's first correction to the next one; 0 where slopes nearby were enough
   };
-  Vector derivative_along(const BranchPoint &at, const Vector &direction) const;
   Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
-                    const Vector &curvature) const;
+                    const Vector &curvature, std::optional<Slopes> slopes) const;
   Vector curvature() const;
   double weighted(const Vector &a, const Vector &b) const;
   double along_tangent_before(const BranchPoint &at) const;
   Vector row_across(const Vector &tangent) const;
   Vector slope_in_parameter(const BranchPoint &at, const SteadySystem::Linearisation &linear) const;
-  double slope_along_arc(const BranchPoint &point) const;
   Vector bend_towards(const BranchPoint &end) const;
   void balance();
 
@@ -93,6 +99,7 @@ private:
   KeyPath path_;
   Control control_;
   BranchPoint point_, before_, oldest_;
+  std::optional<Slopes> slopes_;
   Vector tangent_, tangent_before_;
   Steps steps_;
   double step_;

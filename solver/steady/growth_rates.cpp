@@ -66,17 +66,21 @@ Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unkn
   return all_growth_rates(linear, border_of(linear, neighbours), viscosity_ratio);
 }
 
+Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
+                              Neighbours neighbours) {
+  return growth_rates(system, system.linearise(unknowns, neighbours), viscosity_ratio, neighbours);
+}
+
 // Arnoldi's method on the inverse of the motion. The inverse maps a rate of displacement to the displacement that
 // keeps centre and volume and has this rate, seen from the centre. Newton's bordered matrix solves for it; its border,
 // along which centre and volume are corrected, is a velocity and is multiplied by the velocity's operator for the other
 // viscosity ratio. A growing motion is alone on its side of the inverse's spectrum and shows early, but it need not
 // be the one that grows fastest: then all rates are computed.
-Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
-                              Neighbours neighbours) {
+Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Linearisation &linear,
+                              double viscosity_ratio, Neighbours neighbours) {
   constexpr Eigen::Index most_vectors = 80;
   constexpr double converged = 1e-8, visible = 0.1; // relative residuals of an eigenvalue
   const Eigen::Index n2 = 2 * system.nodes();
-  const SteadySystem::Linearisation linear = system.linearise(unknowns, neighbours);
   const Matrix on_velocity = velocity_operator(linear, viscosity_ratio);
   const Border border = border_of(linear, neighbours);
   const Eigen::Index size_of_all = n2 + border.constraints.rows();

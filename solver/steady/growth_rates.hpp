@@ -20,5 +20,8 @@ Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unkn
 // NumericsFailure("unresolved") if none converges.
 Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
                               Neighbours neighbours = Neighbours::alike);
+// The same from the linearisation at the state.
+Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Linearisation &linear,
+                              double viscosity_ratio, Neighbours neighbours = Neighbours::alike);
 
 } // namespace capsule

@@ -41,6 +41,16 @@ Vector solve_steady(SteadySystem &system, Vector guess) {
   no_convergence();
 }
 
+Vector BroydenCorrections::next(const Vector &residual) {
+  Vector correction = factors_.solve(-residual);
+  for (std::size_t k = 0; k + 1 < made_.size(); ++k)
+    correction += made_[k].dot(correction) / made_[k].squaredNorm() * made_[k + 1];
+  if (!made_.empty())
+    correction /= 1 - made_.back().dot(correction) / made_.back().squaredNorm();
+  made_.push_back(correction);
+  return correction;
+}
+
 bool contracts(int iteration, double before, double now) {
   return std::isfinite(now) && (iteration < 2 || now < 0.7 * before);
 }

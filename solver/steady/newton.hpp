@@ -2,6 +2,8 @@
 // Newton's method for the equations of steady_system.hpp at given parameters.
 #include "base/failure.hpp"
 #include "steady/steady_system.hpp"
+#include <utility>
+#include <vector>
 
 namespace capsule {
 
@@ -17,6 +19,22 @@ Vector solve_steady(SteadySystem &system, Vector guess);
 // the other; and what is thrown if not.
 bool contracts(int iteration, double before, double now);
 [[noreturn]] void no_convergence();
+
+// Corrections by one matrix after another's, mended by Broyden's good update: the matrix learns from each correction what it
+// did to the residual (C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, section 7.3). Each
+// correction that it gives is to be made as a whole.
+class BroydenCorrections {
+public:
+  explicit BroydenCorrections(Eigen::PartialPivLU<Matrix> factors) : factors_(std::move(factors)) {}
+  // At the point that the corrections before have led to.
+  Vector next(const Vector &residual);
+  // With the matrix as it was given.
+  Vector solve(const Vector &right) const { return factors_.solve(right); }
+
+private:
+  Eigen::PartialPivLU<Matrix> factors_;
+  std::vector<Vector> made_;
+};
 
 // Halves a step until one can be taken: `take` says whether it was, and throws NumericsFailure where there is no solution.
 // Throws where the smallest step fails.

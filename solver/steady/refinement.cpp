@@ -134,9 +134,14 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
 }
 
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
+  return record_steady(state, state.system->linearise(state.unknowns), viscosity_ratio);
+}
+
+SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Linearisation &linear,
+                           double viscosity_ratio) {
   const SteadySystem &system = *state.system;
   SteadyRecord record = measure(state);
-  const std::complex<double> slowest = growth_rates(system, state.unknowns, viscosity_ratio)[0];
+  const std::complex<double> slowest = growth_rates(system, linear, viscosity_ratio)[0];
   record.further = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
   if (system.input().flow.type == FlowType::pore)
     record.further["growth_per_length"] = slowest.real() / record.row.v_g;

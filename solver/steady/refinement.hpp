@@ -27,6 +27,9 @@ struct SteadyRecord {
   std::map<std::string, double> further;
 };
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
+// The same where the linearisation at the state is known.
+SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Linearisation &linear,
+                           double viscosity_ratio);
 
 // Of `further` of a train, as of all else: the differences from coarser meshes and the error of the quadrature.
 std::map<std::string, double> errors_of_further(const RefinedState &refined, const SteadyRecord &record,
