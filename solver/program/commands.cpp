@@ -149,6 +149,19 @@ CaseInput different_branches(CaseInput input, const Task &task,
   return input;
 }
 
+// The key that ended a march.
+std::string what_ended(const UntilSpec &until, const std::map<std::string, double> &quantities) {
+  const auto came_to = [&](const char *name, const std::optional<double> &end) {
+    constexpr double rounding = 1e-9;
+    const auto found = quantities.find(name);
+    return end && found != quantities.end() && found->second >= *end - rounding;
+  };
+  if (!until.by_place() || came_to("time", until.time))
+    return "until.time";
+  const bool by_last = until.last_x_g && !came_to("x_g", until.x_g);
+  return fmt::format("{} (with pore.exit_x)", by_last ? "until.last_x_g" : "until.x_g");
+}
+
 } // namespace
 
 ExitCode run_case(const Arguments &arguments) {
@@ -236,7 +249,8 @@ ExitCode create_case(const std::string &id, const std::string &like) {
 std::string unsteady_remark(const std::vector<RunResult> &results) {
   std::size_t unsteady = 0;
   double fastest = 0;
-  bool by_x_g = false;
+  std::string later;     // of the first one
+  bool is_of_one = true; // `capsule steady` has one capsule
   for (const auto &[input, directory, summary] : results) {
     if (!summary || summary->status != word_of(Status::reached))
       continue;
@@ -256,16 +270,18 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
       continue;
     ++unsteady;
     fastest = std::max(fastest, moving);
-    by_x_g = by_x_g || input.physics.until.by_place();
+    if (later.empty())
+      later = what_ended(input.physics.until, summary->quantities);
+    is_of_one = is_of_one && input.physics.followers.empty();
   }
   if (unsteady == 0)
     return "";
   return fmt::format(
-      "not steady yet{}: the membrane still moves with {}{:.2g} relative to its centre; {} leads nearer, "
-      "`capsule steady` tells whether there is a steady state",
+      "not steady yet{}: the membrane still moves with {}{:.2g} relative to its centre; a larger {} leads "
+      "nearer{}",
       results.size() == 1 ? "" : fmt::format(", {} of {}", unsteady, counted(results.size(), "run")),
-      unsteady == 1 ? "" : "up to ", fastest,
-      by_x_g ? "a larger until.x_g (with pore.exit_x)" : "a larger until.time");
+      unsteady == 1 ? "" : "up to ", fastest, later,
+      is_of_one ? ", `capsule steady` tells whether there is a steady state" : "");
 }
 
 std::string wrinkle_remark(const std::vector<RunResult> &results) {

@@ -43,6 +43,16 @@ BOOST_AUTO_TEST_CASE(marches_that_end_before_they_are_steady_are_remarked) {
   BOOST_TEST(unsteady_remark({pair}) == "");
   pair.summary->quantities["x_g#2"] = 5;
   BOOST_TEST(unsteady_remark({pair}).find("with 0.0003") != std::string::npos);
+  BOOST_TEST(unsteady_remark({results[2]}).find("`capsule steady`") != std::string::npos);
+  BOOST_TEST(unsteady_remark({pair}).find("`capsule steady`") == std::string::npos); // which refuses a pair
+  // The key that ended the march.
+  pair.input.physics.until.x_g.reset();
+  pair.input.physics.until.last_x_g = 5;
+  pair.input.physics.until.time = 9;
+  pair.summary->quantities["time"] = 8.5;
+  BOOST_TEST(unsteady_remark({pair}).find("a larger until.last_x_g") != std::string::npos);
+  pair.summary->quantities["time"] = 9;
+  BOOST_TEST(unsteady_remark({pair}).find("a larger until.time") != std::string::npos);
   results[2].input.physics.pore.shape = PoreShape::none;
   results[2].input.physics.until.x_g.reset();
   results[2].input.physics.until.time = 3;
