@@ -73,8 +73,10 @@ SteadyRecord measure(const SteadyState &state) {
   SteadyRecord record{gauge.row(0, position, flow.velocity), gauge.profile(0, position, flow.velocity), {}};
   record.row.x_g = 0; // exactly
   record.profile.x_g = 0;
-  record.row.pressure_drop = flow.pressure_drop;
-  record.row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
+  if (system.input().flow.type == FlowType::pore) { // without a wall there is no pressure drop
+    record.row.pressure_drop = flow.pressure_drop;
+    record.row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
+  }
   record.row.flow_rate = flow.flow_rate;
   if (system.input().flow.period > 0)
     record.row.min_gap = system.gap_to_next(position);

@@ -84,6 +84,14 @@ BOOST_AUTO_TEST_CASE(small_deformation_in_extension) {
   }
 }
 
+// Without a wall no pressure drop can be in error.
+BOOST_AUTO_TEST_CASE(errors_in_extension_are_those_of_meshes) {
+  const Outcome outcome = steady(extension_case(neo_hookean, 0.05), {}, {});
+  BOOST_REQUIRE_MESSAGE(outcome.status == Status::steady, outcome.message);
+  for (const char *quantity : {"deformation", "v_g", "max_stretch", "pressure_drop"})
+    BOOST_TEST(outcome.error_estimate.at(quantity) < 1e-4, quantity);
+}
+
 // The same of a capsule that is inflated by 5 %. With the moduli of the stretched membrane K' and G' and its tension T_0,
 // in units of G, D = (15/8) (3K' + G')/(2 K'G' + T_0 (3K' + 2G')) Ca: numbers by hand. A march of another program comes to
 // 2.158 (neo-Hookean) and 1.700 (Skalak, C = 1) at Ca = 1e-3.
