@@ -25,7 +25,12 @@ Matrix double_with_wall(const Interaction &interaction, const RowMatrix &answer_
 
 NodalLayers nodal_layers(const Interaction &interaction) {
   const RowMatrix answer = interaction.answer_of_wall();
-  return {single_with_wall(interaction, answer), double_with_wall(interaction, answer)};
+  NodalLayers layers;
+  layers.single_answer = stokeslet_factor * answer * interaction.single_at_wall();
+  layers.dbl_answer = answer * interaction.double_at_wall();
+  layers.single = stokeslet_factor * interaction.single_layer() - layers.single_answer;
+  layers.dbl = interaction.double_layer() - layers.dbl_answer;
+  return layers;
 }
 
 Flow::Flow(Wall wall, MembraneMesh mesh, const FlowParameters &parameters, double solver_tolerance)

@@ -33,10 +33,12 @@ struct FlowParameters {
   std::vector<Image> images = {};
 };
 
-// Both layers on nodal densities with what the wall answers, 2N x 2N.
+// Both layers on nodal densities with what the wall answers, 2N x 2N, and this answer.
 struct NodalLayers {
-  Matrix single; // (S_MM - C A^(-1) S_BM)/(8 pi)
-  Matrix dbl;    // D_MM - C A^(-1) D_BM
+  Matrix single;        // (S_MM - C A^(-1) S_BM)/(8 pi)
+  Matrix dbl;           // D_MM - C A^(-1) D_BM
+  Matrix single_answer; // C A^(-1) S_BM/(8 pi)
+  Matrix dbl_answer;    // C A^(-1) D_BM
 };
 NodalLayers nodal_layers(const Interaction &interaction);
 

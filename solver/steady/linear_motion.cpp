@@ -71,6 +71,17 @@ Matrix of_displacement(const Frame &frame, const Pointwise &map, int derivative)
   return result;
 }
 
+// A matrix times a map at each point.
+template <class Dense>
+Dense times(const Dense &matrix, const Pointwise &map) {
+  const Eigen::Index points = map.xx.size();
+  const auto of_x = matrix.leftCols(points).array(), of_r = matrix.rightCols(points).array();
+  Dense result(matrix.rows(), matrix.cols());
+  result.leftCols(points) = of_x.rowwise() * map.xx.transpose() + of_r.rowwise() * map.rx.transpose();
+  result.rightCols(points) = of_x.rowwise() * map.xr.transpose() + of_r.rowwise() * map.rr.transpose();
+  return result;
+}
+
 // f' of the head comment at points: the change of the load and of the area that it acts on, less the stress
 // of its jump on the strips that the displacement sweeps.
 Matrix carried_load_change(const Frame &frame, const Matrix &nodal_change, const Vector &load) {
@@ -102,20 +113,20 @@ Matrix carried_load_change(const Frame &frame, const Matrix &nodal_change, const
   return change;
 }
 
-// w of the head comment.
-Matrix slip(const Frame &frame) {
+// w of the head comment, as a map of the displacement.
+Pointwise slip(const Frame &frame) {
   const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(frame.curve.r.size());
-  return of_displacement(frame, dyads(frame, none, frame.load_tangent, none, none), 0);
+  return dyads(frame, none, frame.load_tangent, none, none);
 }
 
-// What a field at the panels' points has more than the interpolant of its values at the nodes.
-Matrix beyond_nodes(const Frame &at_panels, const Matrix &panel_field, const Matrix &nodal_field) {
-  const Eigen::Index n = nodal_field.rows() / 2;
-  const Eigen::Index points = panel_field.rows() / 2;
-  Matrix rest = panel_field;
-  rest.topRows(points) -= at_panels.at->even[0] * nodal_field.topRows(n);
-  rest.bottomRows(points) -= at_panels.at->odd[0] * nodal_field.bottomRows(n);
-  return rest;
+// D_MM on the slip at the panels.
+Matrix of_panel_slip(const RowMatrix &double_from_panels, const Frame &at_panels) {
+  const RowMatrix on_displacement = times(double_from_panels, slip(at_panels));
+  const Eigen::Index points = at_panels.curve.r.size(), n = at_panels.at->even[0].cols();
+  Matrix result(on_displacement.rows(), 2 * n);
+  result.leftCols(n) = on_displacement.leftCols(points) * at_panels.at->even[0];
+  result.rightCols(n) = on_displacement.rightCols(points) * at_panels.at->odd[0];
+  return result;
 }
 
 // d.grad u of the inner flow, which the shear inside, the velocity along the meridian and the constant
@@ -157,17 +168,17 @@ LinearMotion linear_motion(const Interaction &interaction, const Membrane &membr
   const Frame at_nodes = frame_at(membrane.at_nodes, position, load);
   const Frame at_panels = frame_at(interaction.mesh().parts[0].at_panels, position, load);
   const Matrix nodal_change = load_jacobian(membrane, position, capillary_number);
-  const Matrix change = carried_load_change(at_nodes, nodal_change, load);
-  const Matrix jump = slip(at_nodes);
-
   NodalLayers layers = nodal_layers(interaction);
   const Vector shear = inner_shear(layers, at_nodes, nodal_area(membrane, position), velocity);
-  Matrix equal_viscosities =
-      layers.single * change - 0.5 * jump - layers.dbl * jump +
-      stokeslet_factor * interaction.single_from_panels() *
-          beyond_nodes(at_panels, carried_load_change(at_panels, nodal_change, load), change) -
-      interaction.double_from_panels() * beyond_nodes(at_panels, slip(at_panels), jump) +
-      advance_of_inner_flow(at_nodes, shear, velocity);
+  // The wall answers to what the nodes have.
+  Matrix to_slip = layers.dbl_answer;
+  to_slip.diagonal().array() -= 0.5;
+  Matrix equal_viscosities = stokeslet_factor * interaction.single_from_panels() *
+                                 carried_load_change(at_panels, nodal_change, load) -
+                             layers.single_answer * carried_load_change(at_nodes, nodal_change, load) -
+                             of_panel_slip(interaction.double_from_panels(), at_panels) +
+                             times(to_slip, slip(at_nodes)) +
+                             advance_of_inner_flow(at_nodes, shear, velocity);
   return {std::move(equal_viscosities), std::move(layers.single), std::move(layers.dbl)};
 }
 
