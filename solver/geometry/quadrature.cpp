@@ -88,18 +88,32 @@ void add_logarithm_moments(const GaussRule &rule, double a, double b, double t0,
   }
 }
 
+// The integrals over [-1, 1] of ln((t - t0)^2) P_n(t), t0 inside. Neumann's formula 2 Q_n(t0) = int P_n(t)/(t0 - t) dt is
+// their derivative up to a factor, and (2n + 1) Q_n = Q'_(n+1) - Q'_(n-1) integrates it.
+Vector logarithm_moments(Eigen::Index n, double t0) {
+  Vector q(n + 1); // Legendre functions of the second kind on the cut
+  q[0] = std::atanh(t0);
+  q[1] = t0 * q[0] - 1;
+  for (Eigen::Index k = 2; k <= n; ++k) {
+    const auto j = static_cast<double>(k);
+    q[k] = ((2 * j - 1) * t0 * q[k - 1] - (j - 1) * q[k - 2]) / j;
+  }
+  Vector moments(n);
+  moments[0] = 2 * ((1 - t0) * std::log1p(-t0) + (1 + t0) * std::log1p(t0) - 2);
+  for (Eigen::Index k = 1; k < n; ++k)
+    moments[k] = 4 * (q[k + 1] - q[k - 1]) / (2 * static_cast<double>(k) + 1);
+  return moments;
+}
+
 } // namespace
 
 Vector logarithm_weights(const GaussRule &rule, double t0) {
-  const GaussRule fine = gauss_legendre(16);
   const Eigen::Index n = rule.size();
   Vector moments = Vector::Zero(n);
-  if (t0 > -1 && t0 < 1) {
-    add_logarithm_moments(fine, -1, t0, t0, moments);
-    add_logarithm_moments(fine, t0, 1, t0, moments);
-  } else {
-    add_logarithm_moments(fine, -1, 1, t0, moments);
-  }
+  if (t0 > -1 && t0 < 1)
+    moments = logarithm_moments(n, t0);
+  else
+    add_logarithm_moments(gauss_legendre(16), -1, 1, t0, moments);
   Vector weights(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const Vector p = legendre_values(n, rule.nodes[k]);
