@@ -231,10 +231,8 @@ private:
       const Vector position = integrator.state_at(time);
       return beyond_bearing_of(most_strained(position), position);
     };
-    const double now = integrator.time();
-    return (until.area_stretch || until.tension) && beyond(now) >= 0
-               ? crossing_time(beyond, integrator.previous_time(), now)
-               : std::numeric_limits<double>::infinity();
+    return until.area_stretch || until.tension ? crossing_in_step(beyond, integrator)
+                                               : std::numeric_limits<double>::infinity();
   }
 
   // When the last capsule came to where it ends the march in the last step, if it did.
@@ -245,9 +243,7 @@ private:
     const auto ahead = [&](double time) {
       return centre_of(rows_.size() - 1, integrator.state_at(time)) - *input_.until.last_x_g;
     };
-    const double now = integrator.time();
-    return ahead(now) >= 0 ? crossing_time(ahead, integrator.previous_time(), now)
-                           : std::numeric_limits<double>::infinity();
+    return crossing_in_step(ahead, integrator);
   }
 
   // Records the rows that fall into the last step, in order of time; true at the end.
@@ -257,6 +253,9 @@ private:
     const double burst = burst_time(integrator), last = arrival_of_last(integrator);
     const auto x_g = [&](double time) { return centre_of(0, integrator.state_at(time)); };
     const double x_g_now = x_g(now);
+    const bool passes_station =
+        record_.next_x_g < x_g_stations_.size() && x_g_now >= x_g_stations_[record_.next_x_g].value;
+    const double x_g_before = passes_station ? x_g(before) : x_g_now;
     for (;;) {
       double due = std::numeric_limits<double>::infinity();
       const Station *station = nullptr;
@@ -266,11 +265,11 @@ private:
         due = station->value;
         in_time = true;
       }
-      if (record_.next_x_g < x_g_stations_.size() && x_g_now >= x_g_stations_[record_.next_x_g].value) {
+      if (record_.next_x_g < x_g_stations_.size()) {
         const Station &next = x_g_stations_[record_.next_x_g];
-        const double crossing =
-            crossing_time([&](double time) { return x_g(time) - next.value; }, before, now);
-        if (crossing < due) {
+        const double crossing = crossing_time([&](double time) { return x_g(time) - next.value; },
+                                              {before, x_g_before - next.value}, {now, x_g_now - next.value});
+        if (crossing <= now && crossing < due) {
           station = &next;
           due = crossing;
           in_time = false;
@@ -300,24 +299,13 @@ private:
     }
   }
 
-  // Root of a function that rises in a step. x_g is nearly linear there: the secant rule needs about three values;
-  // halving guards it.
-  template <class Function>
-  static double crossing_time(const Function &ahead, double since, double now) {
-    double low = since, high = now;
-    double before = low, time = high;
-    double at_before = ahead(before), at_time = ahead(time);
-    if (at_before >= 0)
-      return since;
-    for (int k = 0; k < 100 && std::abs(at_time) > 1e-13; ++k) {
-      const double secant = time - at_time * (time - before) / (at_time - at_before);
-      before = time;
-      at_before = at_time;
-      time = secant > low && secant < high ? secant : (low + high) / 2;
-      at_time = ahead(time);
-      (at_time < 0 ? low : high) = time;
-    }
-    return time;
+  // When a function rises through zero in the last step.
+  template <class Function, class Integrator>
+  static double crossing_in_step(const Function &ahead, const Integrator &integrator) {
+    const double now = integrator.time(), before = integrator.previous_time();
+    const double value = ahead(now);
+    return value >= 0 ? crossing_time(ahead, {before, ahead(before)}, {now, value})
+                      : std::numeric_limits<double>::infinity();
   }
 
   // What an integrator interpolates of a flow beside the velocity, and back.

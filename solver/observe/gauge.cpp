@@ -101,7 +101,7 @@ Gauge::Gauge(const std::optional<Pore> &pore, const Membrane &membrane,
              const std::optional<FlowResolution> &conductor)
     : membrane_(membrane), pore_(pore), panels_(integration_points(membrane.basis)),
       fine_(pole_to_pole(membrane.basis)), undeformed_(undeformed_at(fine_, membrane.reference)) {
-  initial_ = integrals(membrane_.initial);
+  initial_ = integrals(trace(panels_, membrane_.initial));
   if (pore_ && conductor) {
     const FlowResolution resolution = conductor_resolution(*conductor);
     conductor_.emplace(*pore_, resolution);
@@ -126,8 +126,7 @@ Gauge::Gauge(const std::optional<Pore> &pore, const Membrane &membrane,
         arc_from_pole_[k] + step / 2 * rule.weights.dot(speed.segment(k * rule.size(), rule.size()));
 }
 
-Gauge::Integrals Gauge::integrals(const Vector &position) const {
-  const Trace curve = trace(panels_, position);
+Gauge::Integrals Gauge::integrals(const Trace &curve) const {
   const auto r = curve.r.array();
   const Eigen::ArrayXd slice = pi * panels_.weights.array() * r.square() * curve.x_zeta.array();
   return {slice.sum(), (slice * curve.x.array()).sum(),
@@ -135,16 +134,21 @@ Gauge::Integrals Gauge::integrals(const Vector &position) const {
 }
 
 double Gauge::centre(const Vector &position) const {
-  const Trace curve = trace(panels_, position);
-  const Eigen::ArrayXd slice = panels_.weights.array() * curve.r.array().square() * curve.x_zeta.array();
-  return (slice * curve.x.array()).sum() / slice.sum();
+  const Eigen::Index n = membrane_.basis.size();
+  const Vector x = panels_.even[0] * position.head(n), x_zeta = panels_.even[1] * position.head(n);
+  const Vector r = panels_.odd[0] * position.tail(n);
+  const Eigen::ArrayXd slice = panels_.weights.array() * r.array().square() * x_zeta.array();
+  return (slice * x.array()).sum() / slice.sum();
 }
 
 double Gauge::film(const Vector &position) const {
+  const Eigen::Index n = membrane_.basis.size();
+  return film(fine_.even[0] * position.head(n), fine_.odd[0] * position.tail(n));
+}
+
+double Gauge::film(const Vector &x, const Vector &r) const {
   if (!pore_)
     return std::numeric_limits<double>::infinity();
-  const Trace curve = trace(fine_, position);
-  const Vector &x = curve.x, &r = curve.r;
   // Between two points the distance to the wall falls by no more than the points are apart: those that are surely farther than
   // the nearest one are skipped.
   const Eigen::Index last_point = x.size() - 1;
@@ -189,8 +193,8 @@ double Gauge::film(const Vector &position) const {
 }
 
 bool Gauge::crosses_itself(const Vector &position) const {
-  const Trace curve = trace(fine_, position);
-  const Vector &x = curve.x, &r = curve.r;
+  const Eigen::Index n = membrane_.basis.size();
+  const Vector x = fine_.even[0] * position.head(n), r = fine_.odd[0] * position.tail(n);
   // Twice the area of the triangle of points a, b, c: its sign tells the side of the line ab on which c lies.
   const auto side = [&](Eigen::Index a, Eigen::Index b, Eigen::Index c) {
     return (x[b] - x[a]) * (r[c] - r[a]) - (r[b] - r[a]) * (x[c] - x[a]);
@@ -244,13 +248,13 @@ SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity
   const Eigen::Index n = membrane_.basis.size();
   SeriesRow row;
   row.time = time;
-  const Integrals now = integrals(position);
+  const Trace curve = trace(panels_, position), moving = trace(panels_, velocity);
+  const Integrals now = integrals(curve);
   row.x_g = now.first_moment / now.volume;
   row.volume_change = (now.volume - initial_.volume) / initial_.volume;
   row.area_change = (now.area - initial_.area) / initial_.area;
 
   // v_g = (1/V) int (x - x_g) v.n dA, with n dA = 2 pi r (-r', x') dzeta
-  const Trace curve = trace(panels_, position), moving = trace(panels_, velocity);
   const Eigen::ArrayXd flux =
       moving.r.array() * curve.x_zeta.array() - moving.x.array() * curve.r_zeta.array();
   row.v_g = 2 * pi * (panels_.weights.array() * (curve.x.array() - row.x_g) * curve.r.array() * flux).sum() /
@@ -266,7 +270,7 @@ SeriesRow Gauge::row(double time, const Vector &position, const Vector &velocity
   row.max_tension = strain.tension;
   row.S_at_max_tension = strain.tension_S;
   row.front_stretch = state.stretch_meridional[state.stretch_meridional.size() - 1];
-  row.min_film = film(position);
+  row.min_film = film(state.x, state.r);
   row.length = maximum(state.x).value + maximum(-state.x).value;
   const double diameter = 2 * maximum(state.r).value;
   row.deformation = (row.length - diameter) / (row.length + diameter);

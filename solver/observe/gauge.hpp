@@ -41,7 +41,8 @@ private:
   struct Integrals {
     double volume, first_moment, area;
   };
-  Integrals integrals(const Vector &position) const;
+  Integrals integrals(const Trace &curve) const;
+  double film(const Vector &x, const Vector &r) const; // at the points of fine_
   double arc_at(double index) const;
   LargestStrain largest_strain(const MembraneState &state) const;
 
