@@ -1,6 +1,7 @@
 #include "flow/wall.hpp"
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace capsule {
 namespace {
@@ -90,40 +91,74 @@ Wall::Wall(const Pore &pore, const FlowResolution &resolution)
 
 namespace {
 
-// Applies `use(first point of the whole wall, number of them, first point of the longer panel)` to each longer panel.
-template <class Use>
-void for_each_longer_panel(const Panels &whole, const Panels &longer, Use &&use) {
-  const Eigen::Index p = whole.rule.size();
-  Eigen::Index begin = 0;
-  for (Eigen::Index k = 0; k < longer.count(); ++k) {
-    Eigen::Index end = begin + 1;
-    while (whole.edges[end] < longer.edges[k + 1])
-      ++end;
-    use(begin * p, (end - begin) * p, k * p);
-    begin = end;
-  }
-}
-
-// M P, where P interpolates values at the points of the whole wall from those of longer panels: columns of the axial
-// components, of the outlet, of the radial ones.
-RowMatrix gathered(const Panels &whole, const Panels &longer, const RowMatrix &matrix) {
-  const Eigen::Index fine = whole.points.size(), coarse = longer.points.size(), p = longer.rule.size();
-  RowMatrix result(matrix.rows(), 2 * coarse + 1);
-  result.col(coarse) = matrix.col(fine);
-  for_each_longer_panel(whole, longer, [&](Eigen::Index begin, Eigen::Index count, Eigen::Index first) {
-    if (count == p) {
-      result.middleCols(first, p) = matrix.middleCols(begin, p);
-      result.middleCols(coarse + 1 + first, p) = matrix.middleCols(fine + 1 + begin, p);
-      return;
+// P, which interpolates values at the points of the whole wall from those of longer panels, in the order of the unknowns:
+// axial components, that of the outlet, radial ones.
+class Joining {
+public:
+  Joining(const Panels &whole, const Panels &longer)
+      : fine_(whole.points.size()), coarse_(longer.points.size()) {
+    const Eigen::Index p = longer.rule.size();
+    Eigen::Index begin = 0;
+    for (Eigen::Index k = 0; k < longer.count(); ++k) {
+      Eigen::Index end = begin + 1;
+      while (whole.edges[end] < longer.edges[k + 1])
+        ++end;
+      const Eigen::Index count = (end - begin) * p;
+      joined_.push_back({begin * p, count, k * p, p, {}});
+      if (count > p)
+        joined_.back().interpolation =
+            lagrange_matrix(longer.points.segment(k * p, p), whole.points.segment(begin * p, count));
+      begin = end;
     }
-    const Matrix interpolation =
-        lagrange_matrix(longer.points.segment(first, p), whole.points.segment(begin, count));
-    result.middleCols(first, p).noalias() = matrix.middleCols(begin, count) * interpolation;
-    result.middleCols(coarse + 1 + first, p).noalias() =
-        matrix.middleCols(fine + 1 + begin, count) * interpolation;
-  });
-  return result;
-}
+  }
+
+  // P^T M
+  RowMatrix rows(const RowMatrix &matrix) const {
+    RowMatrix result(2 * coarse_ + 1, matrix.cols());
+    result.row(coarse_) = matrix.row(fine_);
+    for_each_component([&](const Joined &panel, Eigen::Index from, Eigen::Index to) {
+      const auto values = matrix.middleRows(from, panel.count);
+      if (panel.interpolation.size() == 0)
+        result.middleRows(to, panel.points) = values;
+      else
+        result.middleRows(to, panel.points).noalias() = panel.interpolation.transpose() * values;
+    });
+    return result;
+  }
+
+  // M P
+  RowMatrix columns(const RowMatrix &matrix) const {
+    RowMatrix result(matrix.rows(), 2 * coarse_ + 1);
+    result.col(coarse_) = matrix.col(fine_);
+    for_each_component([&](const Joined &panel, Eigen::Index from, Eigen::Index to) {
+      const auto values = matrix.middleCols(from, panel.count);
+      if (panel.interpolation.size() == 0)
+        result.middleCols(to, panel.points) = values;
+      else
+        result.middleCols(to, panel.points).noalias() = values * panel.interpolation;
+    });
+    return result;
+  }
+
+private:
+  // Points of the whole wall and those of the longer panel that they become; as they are without an interpolation.
+  struct Joined {
+    Eigen::Index begin, count, first, points;
+    Matrix interpolation;
+  };
+
+  // Applies `use(panel, first unknown of the whole wall, first one of the longer panels)`.
+  template <class Use>
+  void for_each_component(const Use &use) const {
+    for (const Joined &panel : joined_) {
+      use(panel, panel.begin, panel.first);
+      use(panel, fine_ + 1 + panel.begin, coarse_ + 1 + panel.first);
+    }
+  }
+
+  Eigen::Index fine_, coarse_; // points
+  std::vector<Joined> joined_;
+};
 
 } // namespace
 
@@ -152,11 +187,11 @@ Wall::Wall(const Wall &whole, const Vector &edges)
       curve_(on_longer_panels(whole.curve_, whole.panels_, panels_)), near_tolerance_(whole.near_tolerance_),
       near_(whole.near_), fixed_near_(curve_, near_tolerance_), outlet_(whole.outlet_),
       closed_form_(whole.closed_form_), base_pressure_drop_(whole.base_pressure_drop_) {
-  const auto gather = [&](const RowMatrix &matrix) { return gathered(whole.panels_, panels_, matrix); };
-  inverse_ = gather(gather(whole.inverse_).transpose()).transpose(); // P^T A^(-1) P
-  weights_ = gather(whole.weights_.transpose()).row(0);
+  const Joining joining(whole.panels_, panels_);
+  inverse_ = joining.columns(joining.rows(whole.inverse_)); // P^T A^(-1) P
+  weights_ = joining.rows(whole.weights_);
   if (whole.base_forces_.size() > 0)
-    base_forces_ = gather(whole.base_forces_.transpose()).row(0);
+    base_forces_ = joining.rows(whole.base_forces_);
 }
 
 // C of (3.1): velocity at points, 2 n, from tractions of the wall and P'.
