@@ -38,7 +38,7 @@ public:
   BranchRow add(const SteadyState &state, const SteadySystem::Linearisation &linear, double part,
                 bool profile) {
     throw_if_interrupted(control_);
-    SteadyRecord record = record_steady(state, linear, viscosity_ratio_);
+    SteadyRecord record = record_steady(state, linear, gauge_of_state(state), viscosity_ratio_);
     record.row.time = path_.value(part); // a branch has no time: the key's value takes its place
     record.profile.time = record.row.time;
     const BranchRow point{path_.value(part), record.row, record.further.at("growth_rate")};
@@ -61,8 +61,22 @@ public:
   Outcome outcome;
 
 private:
+  // The last one, where the flow alone has changed since.
+  const Gauge &gauge_of_state(const SteadyState &state) {
+    const double end = state.system->pore() ? state.system->pore()->exit_x : 0;
+    if (!gauge_ || state.system != measured_ || end != end_of_pore_ || !path_.key().starts_with("flow.")) {
+      gauge_.emplace(gauge_of(*state.system));
+      measured_ = state.system;
+      end_of_pore_ = end;
+    }
+    return *gauge_;
+  }
+
   KeyPath path_;
   double viscosity_ratio_;
+  std::optional<Gauge> gauge_;
+  std::shared_ptr<const SteadySystem> measured_; // by gauge_
+  double end_of_pore_ = 0;
   const Control &control_;
   std::optional<SteadyRecord> latest_; // not kept yet
 };

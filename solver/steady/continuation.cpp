@@ -85,15 +85,15 @@ Vector Branch::slope_in_parameter(const BranchPoint &at, const SteadySystem::Lin
 // The point at a length `step` along the tangent, from a guess that bends away from it. Corrections begin with the slopes at
 // a point nearby, if there are any, and go on with those at the place that they have led to where they do not shrink.
 Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
-                                  double tolerance, const Vector &curvature,
+                                  double tolerance, const Vector &way_to_guess,
                                   std::optional<Slopes> slopes) const {
   constexpr int most_linearisations = 6, most_kept = 12;
   constexpr double fast = 0.7; // ratio of corrections for which a matrix is kept
   const Eigen::Index m = from.unknowns.size();
   const Vector row = row_across(tangent);
   const double enough = tolerance * std::sqrt(weight_);
-  const Vector advance = step * tangent + step * step / 2 * curvature;
-  BranchPoint now{from.unknowns + advance.head(m), from.parameter + advance[m]};
+  const BranchPoint guess{from.unknowns + way_to_guess.head(m), from.parameter + way_to_guess[m]};
+  BranchPoint now = guess;
   std::optional<BroydenCorrections> corrections;
   double contraction = 0, after_linearisation = 1;
   const auto start_corrections = [&] {
@@ -129,8 +129,13 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
       const double length = std::sqrt(weighted(change, change)), ratio = length / before;
       if (k == 0 && count == 1)
         contraction = length / after_linearisation;
-      if (k > 0 && !(ratio < fast))
+      if (k > 0 && !(ratio < fast)) {
+        if (k == 1 && count == 0) { // the slopes are of too far away
+          now = guess;
+          place();
+        }
         break;
+      }
       move(change);
       if (length * (k == 0 ? 1 : ratio) < enough)
         break;
@@ -151,23 +156,26 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
   no_convergence();
 }
 
-// Derivative of the tangent along the branch, from the last two points, by which the first guess bends. A straight
-// displacement that rotates parts of the shell stretches them in second order, and a thin shell resists any stretch.
-Vector Branch::curvature() const {
+// The way to the first guess at a length along the tangent: on the cubic through the last two points along their tangents. A
+// straight displacement that rotates parts of the shell stretches them in second order, and a thin shell resists any
+// stretch.
+Vector Branch::way_to_guess(double step) const {
   if (points_ == 1)
-    return Vector::Zero(tangent_.size());
+    return step * tangent_;
   Vector chord(tangent_.size());
   chord << point_.unknowns - before_.unknowns, point_.parameter - before_.parameter;
-  const Vector earlier = tangent_before_ / std::sqrt(weighted(tangent_before_, tangent_before_));
-  return (tangent_ - earlier) / weighted(chord, tangent_);
+  const double length = weighted(chord, tangent_);
+  const Vector earlier = tangent_before_ / weighted(tangent_before_, tangent_);
+  const Vector by_points = (tangent_ - chord / length) / length, by_tangents = (tangent_ - earlier) / length;
+  return step * tangent_ + step * step * (3 * by_points - by_tangents) +
+         step * step * step / length * (2 * by_points - by_tangents);
 }
 
 void Branch::advance() {
   constexpr double straight = 0.85; // cosine between neighbouring tangents
   balance();
-  const Vector bend = curvature();
   take_step(step_, smallest_step, [&] {
-    const Corrected next = correct(point_, tangent_, step_, steps_.tolerance, bend, slopes_);
+    const Corrected next = correct(point_, tangent_, step_, steps_.tolerance, way_to_guess(step_), slopes_);
     if (!(weighted(next.tangent, tangent_) > straight))
       return false;
     oldest_ = before_;
@@ -245,7 +253,8 @@ BranchPoint Branch::fold() const {
   Slopes nearby = *slopes_;
   const auto at = [&](double step) {
     Corrected found =
-        correct(before_, tangent_before_, step, tolerance, step < 0 ? bend_before : bend_after, nearby);
+        correct(before_, tangent_before_, step, tolerance,
+                step * tangent_before_ + step * step / 2 * (step < 0 ? bend_before : bend_after), nearby);
     nearby = found.slopes;
     return found;
   };

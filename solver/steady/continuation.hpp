@@ -86,8 +86,8 @@ private:
         0; // from Newton's first correction to the next one; 0 where slopes nearby were enough
   };
   Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
-                    const Vector &curvature, std::optional<Slopes> slopes) const;
-  Vector curvature() const;
+                    const Vector &way_to_guess, std::optional<Slopes> slopes) const;
+  Vector way_to_guess(double step) const;
   double weighted(const Vector &a, const Vector &b) const;
   double along_tangent_before(const BranchPoint &at) const;
   Vector row_across(const Vector &tangent) const;

@@ -1,7 +1,7 @@
 #include "steady/refinement.hpp"
-#include "observe/gauge.hpp"
 #include "observe/quantities.hpp"
 #include "steady/growth_rates.hpp"
+#include "steady/work.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,25 +62,24 @@ std::string poorly_resolved(int nodes) {
 }
 
 // Row and profile of a state with its centre at x = 0; no rates yet.
-SteadyRecord measure(const SteadyState &state) {
+SteadyRecord measure(const SteadyState &state, const Gauge &gauge) {
   const SteadySystem &system = *state.system;
-  const Gauge gauge(system.pore(), system.membrane(),
-                    system.input().output.resistance ? std::optional(system.resolution().flow)
-                                                     : std::nullopt);
   Vector position = state.unknowns.head(2 * system.nodes());
   position.head(system.nodes()).array() -= gauge.centre(position);
   const FlowState flow = system.flow(position);
   SteadyRecord record{gauge.row(0, position, flow.velocity), gauge.profile(0, position, flow.velocity), {}};
   record.row.x_g = 0; // exactly
   record.profile.x_g = 0;
-  if (system.input().flow.type == FlowType::pore) { // without a wall there is no pressure drop
-    record.row.pressure_drop = flow.pressure_drop;
-    record.row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
-  }
+  record.row.pressure_drop = flow.pressure_drop;
+  record.row.pressure_drop_reciprocal = flow.pressure_drop_reciprocal;
   record.row.flow_rate = flow.flow_rate;
   if (system.input().flow.period > 0)
     record.row.min_gap = system.gap_to_next(position);
   return record;
+}
+
+SteadyRecord measure(const SteadyState &state) {
+  return measure(state, gauge_of(*state.system));
 }
 
 // Of a train: two meshes of the membrane may have one wall and err alike. How much a wall errs depends on where its panels
@@ -99,6 +98,20 @@ void estimate_errors(RefinedState &refined, const SeriesRow &row, SteadyState co
     }
   }
   refined.error_estimate = errors_of(row, rows);
+}
+
+// Throws NumericsFailure, which says that a coarser mesh has a state.
+SteadyState on_finer_mesh(const Case &input, int nodes, const SteadyState &coarser, const Control &control) {
+  constexpr double most_work = 400; // where Newton's method does not go there at once
+  try {
+    return within(most_work, control,
+                  [&](const Control &limited) { return on_mesh(input, nodes, coarser, limited); });
+  } catch (const NumericsFailure &failure) {
+    throw NumericsFailure(failure.kind,
+                          fmt::format("a state on {} nodes is not found on {}: {}", coarser.system->nodes(),
+                                      nodes, failure.what()),
+                          failure.advice);
+  }
 }
 
 } // namespace
@@ -121,7 +134,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
     throw_if_interrupted(control);
     nodes = finer_mesh(nodes);
     const SteadyState coarser = refined.state;
-    refined.state = on_mesh(input, nodes, coarser);
+    refined.state = on_finer_mesh(input, nodes, coarser, control);
     const SeriesRow before = row;
     refined.state.system->require_stiffness(refined.state.unknowns);
     row = measure(refined.state).row;
@@ -136,13 +149,19 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
 }
 
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
-  return record_steady(state, state.system->linearise(state.unknowns), viscosity_ratio);
+  return record_steady(state, state.system->linearise(state.unknowns), gauge_of(*state.system),
+                       viscosity_ratio);
+}
+
+Gauge gauge_of(const SteadySystem &system) {
+  return {system.pore(), system.membrane(),
+          system.input().output.resistance ? std::optional(system.resolution().flow) : std::nullopt};
 }
 
 SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Linearisation &linear,
-                           double viscosity_ratio) {
+                           const Gauge &gauge, double viscosity_ratio) {
   const SteadySystem &system = *state.system;
-  SteadyRecord record = measure(state);
+  SteadyRecord record = measure(state, gauge);
   const std::complex<double> slowest = growth_rates(system, linear, viscosity_ratio)[0];
   record.further = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
   if (system.input().flow.type == FlowType::pore)

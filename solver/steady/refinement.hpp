@@ -1,5 +1,6 @@
 #pragma once
 // A steady state on finer and finer meshes until its error is as small as asked for, and what is reported of it.
+#include "observe/gauge.hpp"
 #include "observe/outcome.hpp"
 #include "steady/mesh_change.hpp"
 #include <map>
@@ -27,9 +28,10 @@ struct SteadyRecord {
   std::map<std::string, double> further;
 };
 SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
-// The same where the linearisation at the state is known.
+// The same where the linearisation at the state is known, and a gauge of the state's membrane and pore.
 SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Linearisation &linear,
-                           double viscosity_ratio);
+                           const Gauge &gauge, double viscosity_ratio);
+Gauge gauge_of(const SteadySystem &system);
 
 // Of `further` of a train, as of all else: the differences from coarser meshes and the error of the quadrature.
 std::map<std::string, double> errors_of_further(const RefinedState &refined, const SteadyRecord &record,

@@ -8,6 +8,7 @@
 #include "steady/newton.hpp"
 #include "steady/relaxation.hpp"
 #include "steady/strong_flow.hpp"
+#include "steady/work.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -165,33 +166,6 @@ std::optional<SteadyState> from_a_stiff_sphere_at(double strength, const Case &i
     attempts.add(fmt::format("from a small stiff sphere at {} = {:.3g}", flow_key, strength), failure);
   }
   return {};
-}
-
-// Counts the work that is spent; beyond the most of it Exhausted is thrown.
-Control counting(double &work, double most, const Control &control) {
-  Control limited = control;
-  limited.spend = [&work, most, spend = control.spend](double more) {
-    if (spend)
-      spend(more);
-    work += more;
-    if (work > most)
-      throw Exhausted{};
-  };
-  return limited;
-}
-
-// A part of a search, which may cost so much. Throws NumericsFailure where it costs more.
-template <class Part>
-auto within(double most, const Control &control, const Part &part) {
-  double work = 0;
-  try {
-    return part(counting(work, most, control));
-  } catch (const Exhausted &) {
-    if (work <= most) // it is the whole search that has cost too much
-      throw;
-    throw NumericsFailure(failure_kind::unresolved, "it takes too long",
-                          "begin with a profile of a march (--from)");
-  }
 }
 
 // A flat capsule wider than the tube, which a sphere can become.
