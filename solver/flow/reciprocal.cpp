@@ -28,6 +28,8 @@ Vector base_traction(const Interaction &interaction, double tolerance, Recycled 
 Vector reciprocal_pressure_drops(const Interaction &interaction, const Vector &f,
                                  const Vector &excess_velocity, double tolerance, Recycled &traction) {
   const MembraneMesh &mesh = interaction.mesh();
+  if (interaction.wall().unknowns() == 0)
+    return Vector::Zero(std::ssize(mesh.parts));
   const Vector area2 = interaction.shape().nodes.area.replicate(2, 1);
   const Vector power = f.cwiseProduct(interaction.base_velocity());
   const Vector of_liquid =
