@@ -81,11 +81,14 @@ ExitCode compute_runs(const CaseInput &whole, const Arguments &arguments, const 
 std::string group_text(const std::string &name, const Case &physics) {
   const Key &key = *find_key(name);
   std::vector<std::string> texts;
-  for (const Case *capsule : capsules_of(physics))
-    if (const auto value = means_something(key, *capsule) ? get_value(key, *capsule) : std::nullopt) {
-      const auto real = number(key, *capsule);
+  for (const Case *capsule : capsules_of(physics)) {
+    Case alone = *capsule; // the leading one has a list
+    alone.followers.clear();
+    if (const auto value = means_something(key, alone) ? get_value(key, alone) : std::nullopt) {
+      const auto real = number(key, alone);
       texts.push_back(real ? number_text(std::stod(fmt::format("{:.4g}", *real))) : plain_text(*value));
     }
+  }
   return fmt::format("{}", fmt::join(texts, " "));
 }
 

@@ -280,6 +280,20 @@ SteadyState without_neighbours(const Case &input, const Control &control, const 
   }
 }
 
+// Where the last state on the way to a shorter period has hardly any gap.
+void throw_if_touching(const SteadyState &last) {
+  constexpr double hardly_any = 0.03;
+  const SteadySystem &system = *last.system;
+  const double gap = system.gap_to_next(last.unknowns.head(2 * system.nodes()));
+  if (gap < hardly_any)
+    throw NumericsFailure(
+        failure_kind::touching,
+        fmt::format("neighbouring capsules of the train come to touch: near flow.period = {:.4g} "
+                    "their gap is {:.2g}",
+                    system.input().flow.period, gap),
+        "try a larger flow.period");
+}
+
 // The state of a capsule alone, and then its neighbours: near enough to be felt at once, or coming closer if Newton's
 // method does not get there.
 SteadyState among_neighbours(const Case &input, const Control &control, const MarchToRest &march) {
@@ -297,7 +311,12 @@ SteadyState among_neighbours(const Case &input, const Control &control, const Ma
     const double length = 2 * state.unknowns.head(nodes).cwiseAbs().maxCoeff();
     alone.flow.period = std::max(length + out_of_reach, input.flow.period);
     Homotopy homotopy(input, alone, moved_to_mesh(alone, nodes, state), control);
-    homotopy.vary(period_key, input.flow.period);
+    try {
+      homotopy.vary(period_key, input.flow.period);
+    } catch (const NumericsFailure &) {
+      throw_if_touching(homotopy.state());
+      throw;
+    }
     return homotopy.state();
   }
 }

@@ -201,4 +201,17 @@ BOOST_AUTO_TEST_CASE(touching_neighbours) {
   BOOST_TEST(largest(system->residual(system->initial())) < 100);
 }
 
+// A file of capsules that are longer than the period is told to touch, and where it does.
+BOOST_AUTO_TEST_CASE(a_period_below_the_length) {
+  Case physics = train_case(neo_hookean, 0.8, 0.05, 1.5);
+  physics.mesh.membrane = 40;
+  const Outcome outcome = steady(physics, {}, {});
+  BOOST_TEST(outcome.failure == failure_kind::touching);
+  BOOST_TEST(outcome.message.find("near flow.period = 1.604") != std::string::npos, outcome.message);
+  physics.flow.period = 1.7;
+  const Outcome apart = steady(physics, {}, {});
+  BOOST_REQUIRE_MESSAGE(apart.status == Status::steady, apart.message);
+  BOOST_TEST(std::abs(apart.last.series.back().length - 1.604) < 2e-3);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
