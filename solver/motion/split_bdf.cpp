@@ -93,7 +93,10 @@ void SplitBdf::find_matrices() {
 
 // All that follows from both matrices.
 void SplitBdf::multiply() {
-  jacobian_ = times_blocks(mobility_, load_jacobian_, equations_.parts);
+  if (equations_.parts.empty())
+    jacobian_ = mobility_ * load_jacobian_;
+  else
+    jacobian_ = times_blocks(mobility_, load_jacobian_, equations_.parts);
   remainders_.clear();
   for (const StepMemory::Point &point : memory_.past)
     remainders_.emplace_back(point.rate - mobility_ * point.load);

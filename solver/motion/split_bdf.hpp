@@ -28,8 +28,9 @@ struct SplitEquations {
   std::function<Rate(const Vector &state)> rate;
   // du/dF; dF/dy, which may be approximate.
   std::function<Matrix(const Vector &state)> mobility, load_jacobian;
-  // Components whose loads depend on each other: dF/dy has no entries between different parts. Each component is in one.
-  std::vector<std::vector<Eigen::Index>> parts;
+  // Components whose loads depend on each other: dF/dy has no entries between different parts. Each component is in one;
+  // without parts all depend on all.
+  std::vector<std::vector<Eigen::Index>> parts = {};
 };
 
 class SplitBdf {

@@ -46,8 +46,7 @@ SplitEquations circle() {
             jacobian(2, 0) = 2 * state[0] * stiffness; // without the cubic part
             jacobian(2, 2) = -stiffness;
             return jacobian;
-          },
-          .parts = {{0, 1, 2}}};
+          }};
 }
 
 const Vector beginning{{1, 0, 1}};
