@@ -62,13 +62,6 @@ double deformation_difference(const SeriesRow &row, const SeriesRow &other) {
          (sum * sum);
 }
 
-// Both marches may be wrong alike, as where a capsule comes so near to the end of the tube that the outlet is no Poiseuille
-// flow any more. The two routes to the pressure drop part there.
-double difference_of_routes(const SeriesRow &row) {
-  const double difference = std::abs(row.pressure_drop - row.pressure_drop_reciprocal);
-  return std::isfinite(difference) ? difference : 0; // the paper's preset has one route
-}
-
 // The peak is where the slope vanishes: it moves by the slope's difference over the curvature.
 double shift_of_peak(const std::vector<RowPair> &pairs, const Peak &peak) {
   double shift = 0;
@@ -115,11 +108,9 @@ std::map<std::string, double> differences(const std::vector<RowPair> &leading, c
       if ((quantity.error != ErrorEstimate::of_marches && quantity.error != ErrorEstimate::of_all) ||
           !is_reported(quantity, *row))
         continue;
-      double difference =
+      const double difference =
           std::abs(quantity.value == &SeriesRow::deformation ? deformation_difference(*row, *other)
                                                              : row->*quantity.value - other->*quantity.value);
-      if (quantity.value == &SeriesRow::pressure_drop)
-        difference = std::max(difference, difference_of_routes(*row) / safety);
       const auto add = [&](const std::string &name) { largest[name] = std::max(largest[name], difference); };
       add(quantity.name + mark + suffix);
       // The time adds up along the way.

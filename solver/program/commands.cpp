@@ -69,7 +69,8 @@ ExitCode compute_runs(const CaseInput &whole, const Arguments &arguments, const 
   write_run_list(whole, options.directory);
   const std::vector<RunResult> results = compute_case(input, arguments, computation);
   if (computation.task.motion)
-    for (const std::string &remark : {wrinkle_remark(results), unsteady_remark(results)})
+    for (const std::string &remark :
+         {wrinkle_remark(results), outlet_remark(results), unsteady_remark(results)})
       if (!remark.empty())
         fmt::print(stderr, "{}: {}\n", whole.name, remark);
   if (std::ranges::any_of(results, is_interrupted))
@@ -285,6 +286,32 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
       results.size() == 1 ? "" : fmt::format(", {} of {}", unsteady, counted(results.size(), "run")),
       unsteady == 1 ? "" : "up to ", fastest, later,
       is_of_one ? ", `capsule steady` tells whether there is a steady state" : "");
+}
+
+std::string outlet_remark(const std::vector<RunResult> &results) {
+  constexpr double too_much = 1e-2;
+  std::size_t runs = 0;
+  double largest = 0;
+  for (const RunResult &result : results) {
+    if (!result.summary || result.summary->status != word_of(Status::reached))
+      continue;
+    const auto &quantities = result.summary->quantities;
+    const auto one = quantities.find("pressure_drop"), other = quantities.find("pressure_drop_reciprocal");
+    if (one == quantities.end() || other == quantities.end())
+      continue;
+    const double difference = std::abs(one->second - other->second) / std::max(1.0, std::abs(other->second));
+    if (difference > too_much)
+      ++runs;
+    largest = std::max(largest, difference);
+  }
+  if (runs == 0)
+    return "";
+  return fmt::format(
+      "the two routes to the pressure drop differ by {:.0f} %{}, of which the estimate says nothing: the end "
+      "of the "
+      "pore may be too near; a larger pore.exit_x moves it away",
+      100 * largest,
+      results.size() == 1 ? "" : fmt::format(" or less in {} of {}", runs, counted(results.size(), "run")));
 }
 
 std::string wrinkle_remark(const std::vector<RunResult> &results) {

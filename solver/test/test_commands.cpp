@@ -61,6 +61,19 @@ BOOST_AUTO_TEST_CASE(marches_that_end_before_they_are_steady_are_remarked) {
   BOOST_TEST(unsteady_remark({results[2]}) == "");
 }
 
+BOOST_AUTO_TEST_CASE(routes_that_part_at_the_outlet_are_remarked) {
+  RunResult result{{}, "", Summary{}};
+  result.summary->status = "reached";
+  result.summary->quantities = {{"pressure_drop", 20.1}, {"pressure_drop_reciprocal", 20.0}};
+  BOOST_TEST(outlet_remark({result}) == "");
+  RunResult near = result;
+  near.summary->quantities["pressure_drop"] = 60;
+  BOOST_TEST(outlet_remark({near}).find("differ by 200 %, of") != std::string::npos);
+  BOOST_TEST(outlet_remark({near, result}).find("or less in 1 of 2 runs") != std::string::npos);
+  near.summary->quantities.erase("pressure_drop_reciprocal"); // the paper's preset has one route
+  BOOST_TEST(outlet_remark({near}) == "");
+}
+
 BOOST_AUTO_TEST_CASE(wrinkles_on_the_way_are_remarked) {
   const TemporaryDirectory directory;
   const RunResult result{{}, directory.path, Summary{}};
