@@ -269,7 +269,7 @@ private:
         const Station &next = x_g_stations_[record_.next_x_g];
         const double crossing = crossing_time([&](double time) { return x_g(time) - next.value; },
                                               {before, x_g_before - next.value}, {now, x_g_now - next.value});
-        if (crossing <= now && crossing < due) {
+        if (crossing < due) {
           station = &next;
           due = crossing;
           in_time = false;

@@ -25,8 +25,8 @@ std::vector<Station> stations(double from, double spacing, std::optional<double>
 struct Ahead {
   double time, value;
 };
-// Root of a function that rises between two times, infinite where it lies behind them. Values at both are known. x_g is
-// nearly linear between steps: the secant rule needs about three more; halving guards it.
+// Root of a function that rises between two times; the first of them where it lies before, infinite where it lies behind.
+// Values at both are known. x_g is nearly linear between steps: the secant rule needs about three more; halving guards it.
 template <class Function>
 double crossing_time(const Function &ahead, Ahead before, Ahead now) {
   if (!(now.value >= 0))

@@ -307,9 +307,8 @@ std::string outlet_remark(const std::vector<RunResult> &results) {
   if (runs == 0)
     return "";
   return fmt::format(
-      "the two routes to the pressure drop differ by {:.0f} %{}, of which the estimate says nothing: the end "
-      "of the "
-      "pore may be too near; a larger pore.exit_x moves it away",
+      "the two routes to the pressure drop differ by {:.0f} %{}, of which the estimate says nothing: the "
+      "end of the pore may be too near; a larger pore.exit_x moves it away",
       100 * largest,
       results.size() == 1 ? "" : fmt::format(" or less in {} of {}", runs, counted(results.size(), "run")));
 }

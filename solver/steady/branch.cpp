@@ -5,6 +5,7 @@
 #include "case/keys.hpp"
 #include "case/physical.hpp"
 #include "case/units.hpp"
+#include "observe/gauge.hpp"
 #include "steady/continuation.hpp"
 #include "steady/refinement.hpp"
 #include "steady/steady_state.hpp"
@@ -61,7 +62,8 @@ public:
   Outcome outcome;
 
 private:
-  // The last one, where the flow alone has changed since.
+  // The last one, where nothing that it measures with has changed since: a key of the flow changes no membrane, at most the
+  // length of the tube.
   const Gauge &gauge_of_state(const SteadyState &state) {
     const double end = state.system->pore() ? state.system->pore()->exit_x : 0;
     if (!gauge_ || state.system != measured_ || end != end_of_pore_ || !path_.key().starts_with("flow.")) {

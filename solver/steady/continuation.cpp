@@ -16,8 +16,8 @@ constexpr double smallest_step = 1e-6;
 constexpr double largest_slack = 5e-7;
 constexpr double work_of_residual = 0.06; // of a linearisation
 
-// Factor from one step to the next. The first guess bends with the branch, so its error, and with it the contraction of
-// Newton's method, is of third order in the step.
+// Factor from one step to the next. The contraction of Newton's method grows with the error of the guess, which is of second
+// order in the first step, along the tangent, and of fourth in the others, on a cubic: the cube root lies between.
 double step_factor(double contraction) {
   constexpr double intended = 0.25;
   return contraction == 0 ? 1.4 : std::clamp(std::cbrt(intended / contraction), 0.5, 2.0);
@@ -83,12 +83,14 @@ Vector Branch::slope_in_parameter(const BranchPoint &at, const SteadySystem::Lin
 }
 
 // The point at a length `step` along the tangent, from a guess that bends away from it. Corrections begin with the slopes at
-// a point nearby, if there are any, and go on with those at the place that they have led to where they do not shrink.
+// a point nearby, if there are any. Where they have come to an end, or do not shrink, they go on with those at the place that
+// they have led to, until the first one with new slopes is small enough.
 Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
                                   double tolerance, const Vector &way_to_guess,
                                   std::optional<Slopes> slopes) const {
-  constexpr int most_linearisations = 6, most_kept = 12;
-  constexpr double fast = 0.7; // ratio of corrections for which a matrix is kept
+  constexpr int most_linearisations = 6;
+  constexpr int most_kept = 12; // corrections with the same matrix
+  constexpr double fast = 0.7;  // ratio of corrections for which a matrix is kept
   const Eigen::Index m = from.unknowns.size();
   const Vector row = row_across(tangent);
   const double enough = tolerance * std::sqrt(weight_);
@@ -112,7 +114,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     system_->fit_tube(now.unknowns);
   };
   const auto move = [&](const Vector &change) {
-    if (!contracts(0, 1, change.norm()) || system_->admissible_step(now.unknowns, change.head(m)) < 1)
+    if (!change.allFinite() || system_->admissible_step(now.unknowns, change.head(m)) < 1)
       no_convergence();
     now.unknowns += change.head(m);
     now.parameter += change[m];

@@ -33,7 +33,7 @@ public:
   enum class Trend { falls, grows };
   // `start` is near to a steady state. The branch begins with the state next to it in the plane across `direction`
   // (changes of the unknowns, then of the parameter), and goes on to that side. `trend` is that of the way to the start:
-  // a fold may lie between. What it asks of `control` it asks before each linearisation, and throws Interrupted, too.
+  // a fold may lie between. What it asks of `control` it asks before each correction, and throws Interrupted, too.
   Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vector &direction, const Steps &steps,
          Trend trend = Trend::grows, Control control = {});
   // The direction in which the parameter alone grows.
@@ -82,8 +82,8 @@ private:
     BranchPoint point;
     Vector tangent;
     Slopes slopes; // where the last correction began
-    double contraction =
-        0; // from Newton's first correction to the next one; 0 where slopes nearby were enough
+    // From Newton's first correction to the next one; 0 where the first one was small enough.
+    double contraction = 0;
   };
   Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
                     const Vector &way_to_guess, std::optional<Slopes> slopes) const;

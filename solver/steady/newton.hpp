@@ -20,9 +20,9 @@ Vector solve_steady(SteadySystem &system, Vector guess);
 bool contracts(int iteration, double before, double now);
 [[noreturn]] void no_convergence();
 
-// Corrections by one matrix after another's, mended by Broyden's good update: the matrix learns from each correction what it
+// Corrections one after another, all by one matrix that Broyden's good update mends: it learns from each correction what that
 // did to the residual (C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM 1995, section 7.3). Each
-// correction that it gives is to be made as a whole.
+// correction that it gives is to be made as a whole. None follows one that is zero.
 class BroydenCorrections {
 public:
   explicit BroydenCorrections(Eigen::PartialPivLU<Matrix> factors) : factors_(std::move(factors)) {}

@@ -17,7 +17,7 @@ struct RefinedState {
 };
 // Until the last two meshes agree to the accuracy asked for, in the pressure drop and other integrals to a tenth of it.
 // With a given mesh.membrane, on that mesh and on one of three quarters of its nodes. Throws NumericsFailure,
-// Interrupted.
+// Interrupted, and what `spend` of `control` throws.
 RefinedState refine(const Case &input, const SteadyState &state, const Control &control);
 
 // At time 0 and x_g = 0.

@@ -5,7 +5,7 @@
 
 namespace capsule {
 
-// Counts the work that is spent; beyond the most of it Exhausted is thrown.
+// Counts the work that is spent in `work`, which outlives what is returned; beyond the most of it Exhausted is thrown.
 inline Control counting(double &work, double most, const Control &control) {
   Control limited = control;
   limited.spend = [&work, most, spend = control.spend](double more) {

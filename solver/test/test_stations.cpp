@@ -2,6 +2,7 @@
 #include "motion/stations.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <vector>
 
 using namespace capsule;
 
@@ -62,6 +63,21 @@ BOOST_AUTO_TEST_CASE(from_a_later_place_the_rest_is_due) {
       ++k;
     }
   }
+}
+
+// That of exp(t) - 2. Where it is not between them the function is not asked.
+BOOST_AUTO_TEST_CASE(a_crossing_is_the_root_between_two_times) {
+  std::vector<double> asked;
+  const auto ahead = [&](double time) {
+    asked.push_back(time);
+    return std::exp(time) - 2;
+  };
+  BOOST_TEST(std::abs(crossing_time(ahead, {0, -1}, {1, std::exp(1.0) - 2}) - std::log(2.0)) < 1e-12);
+  BOOST_TEST(asked.size() < 10u);
+  asked.clear();
+  BOOST_TEST(crossing_time(ahead, {0.8, std::exp(0.8) - 2}, {1, std::exp(1.0) - 2}) == 0.8); // it lies before
+  BOOST_TEST(std::isinf(crossing_time(ahead, {0, -1}, {0.5, std::exp(0.5) - 2})));           // it lies behind
+  BOOST_TEST(asked.empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()
