@@ -20,6 +20,6 @@ do for [law in "neo-hookean skalak"] {
 unset multiplot
 print sprintf("**Steady states of %d random capsules.** Found: %d; a fold ends the branch before: %d; the law softens before: %d; not found: %d.", \
     count("$8 != \"\""), count(found), count("$8 == \"fold\""), count("$8 == \"softening\""), count(unresolved)), \
-  sprintf("The median search took %.2f s of one core, the longest %.0f s. Of %d marches that arrive, %d end within 1e-3 of the steady state.", \
-    seconds("awk '{a[NR] = $1} END {print a[int((NR + 1)/2)]}'"), seconds("tail -1"), count("$14 == \"reached\""), \
-    count("$14 == \"reached\" && $15 < 1e-3 && $16 < 1e-3"))
+  sprintf("The median search took %.2f s of one core, the longest %.0f s. Of %d marches that come to rest, %d end within 1e-3 of the steady state.", \
+    seconds("awk '{a[NR] = $1} END {print a[int((NR + 1)/2)]}'"), seconds("tail -1"), count("$14 == \"at rest\""), \
+    count("$14 == \"at rest\" && $15 < 1e-3 && $16 < 1e-3"))
