@@ -14,7 +14,7 @@ set key outside bottom center horizontal
 do for [law in "neo-hookean skalak"] {
   set title law eq "skalak" ? "Skalak" : "neo-Hookean"
   plot of(law, found) using "capillary_number":"R_eq" with points linetype 1 pointtype 6 pointsize 0.5 title "found", \
-    of(law, ends) using "capillary_number":"R_eq" with points linetype 2 pointtype 5 pointsize 0.5 title "none: fold or softening", \
+    of(law, ends) using "capillary_number":"R_eq" with points linetype 2 pointtype 5 pointsize 0.5 title "fold or softening", \
     of(law, unresolved) using "capillary_number":"R_eq" with points linetype 3 pointtype 2 pointsize 0.7 title "not found"
 }
 unset multiplot
