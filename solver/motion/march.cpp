@@ -181,7 +181,7 @@ private:
   double longest_step() const {
     constexpr double rows = 2;
     double longest = std::numeric_limits<double>::infinity();
-    if (role_ == Role::companion)
+    if (role_ == Role::companion || record_.series.empty()) // begins with a position that is no row
       return longest;
     if (input_.until.time && !input_.until.by_place())
       longest = rows * *input_.until.time / rows_in_time;
