@@ -142,15 +142,17 @@ public:
 
 private:
   BranchRow record(const BranchPoint &point, bool profile) {
-    state_.unknowns = point.unknowns;
-    state_.system->set_parameters(path_.at(point.parameter));
+    go_to(point);
     return record_.add(state_, state_.system->linearise(point.unknowns), point.parameter, profile);
   }
+  // That of the branch, whose linearisation is known.
   BranchRow record_point(bool profile) {
-    const BranchPoint &point = branch_->point();
+    go_to(branch_->point());
+    return record_.add(state_, branch_->linearisation(), branch_->point().parameter, profile);
+  }
+  void go_to(const BranchPoint &point) {
     state_.unknowns = point.unknowns;
     state_.system->set_parameters(path_.at(point.parameter));
-    return record_.add(state_, branch_->linearisation(), point.parameter, profile);
   }
   // Goes on from a point on a finer mesh; false if there is none, or the branch is not found on it.
   bool refine_mesh(const BranchPoint &point, const Vector &tangent, Branch::Trend trend) {

@@ -177,7 +177,7 @@ void Branch::advance() {
   constexpr double straight = 0.85; // cosine between neighbouring tangents
   balance();
   take_step(step_, smallest_step, [&] {
-    const Corrected next = correct(point_, tangent_, step_, steps_.tolerance, way_to_guess(step_), slopes_);
+    Corrected next = correct(point_, tangent_, step_, steps_.tolerance, way_to_guess(step_), slopes_);
     if (!(weighted(next.tangent, tangent_) > straight))
       return false;
     oldest_ = before_;
@@ -186,7 +186,7 @@ void Branch::advance() {
     ++points_;
     point_ = next.point;
     tangent_ = next.tangent;
-    slopes_ = next.slopes;
+    slopes_ = std::move(next.slopes);
     trend_before_ = trend_;
     trend_ = point_.parameter < before_.parameter ? Trend::falls : Trend::grows;
     step_ = std::min(step_factor(next.contraction) * step_, steps_.largest);
