@@ -120,6 +120,8 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     now.parameter += change[m];
     place();
   };
+  if (system_->admissible_step(from.unknowns, way_to_guess.head(m)) < 1)
+    no_convergence();
   place();
   if (slopes)
     start_corrections();

@@ -86,10 +86,13 @@ SteadyRecord measure(const SteadyState &state) {
 // end beside the capsules, and with either sign: one other wall may agree by accident.
 constexpr std::array longer_panels{10.0 / 9, 5.0 / 4};
 
-// Its errors by a state on a coarser mesh and, of a train, by those with coarser walls.
+// Where no finer mesh is asked for, nothing tells whether the shape is resolved. If it is not, one coarser mesh may agree by
+// accident.
+constexpr std::array fewer_nodes{0.875, 0.75};
+
+// Its errors by states on coarser meshes, the last of them `coarse`, and, of a train, by those with coarser walls.
 void estimate_errors(RefinedState &refined, const SeriesRow &row, SteadyState coarse,
-                     const SeriesRow &coarse_row) {
-  std::vector<SeriesRow> rows{coarse_row};
+                     std::vector<SeriesRow> rows) {
   if (refined.state.system->input().flow.period > 0) {
     refined.coarser = {std::move(coarse)};
     for (const double longer : longer_panels) {
@@ -122,11 +125,15 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
   auto nodes = static_cast<int>(refined.state.system->nodes());
   refined.state.system->require_stiffness(refined.state.unknowns);
   SeriesRow row = measure(refined.state).row;
-  if (given || finer_mesh(nodes) > most_nodes) { // no finer mesh: a coarser one tells the error
-    const SteadyState coarser = on_mesh(input, std::max(3, 3 * nodes / 4), refined.state);
-    const SeriesRow coarse = measure(coarser).row;
+  if (given || finer_mesh(nodes) > most_nodes) { // no finer mesh: coarser ones tell the error
+    std::vector<SeriesRow> coarse;
+    SteadyState coarser;
+    for (const double fewer : fewer_nodes) {
+      coarser = on_mesh(input, std::max(3, static_cast<int>(fewer * nodes)), refined.state);
+      coarse.push_back(measure(coarser).row);
+    }
     estimate_errors(refined, row, coarser, coarse);
-    if (!given && !agree(row, coarse, input.accuracy))
+    if (!given && !agree(row, coarse.back(), input.accuracy))
       refined.warning = poorly_resolved(nodes);
     return refined;
   }
@@ -141,7 +148,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
     const bool enough = agree(row, before, input.accuracy);
     if (!enough && finer_mesh(nodes) <= most_nodes)
       continue;
-    estimate_errors(refined, row, coarser, before);
+    estimate_errors(refined, row, coarser, {before});
     if (!enough)
       refined.warning = poorly_resolved(nodes);
     return refined;

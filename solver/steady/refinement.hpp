@@ -16,7 +16,7 @@ struct RefinedState {
   std::vector<SteadyState> coarser = {};        // of a train: what it was compared with
 };
 // Until the last two meshes agree to the accuracy asked for, in the pressure drop and other integrals to a tenth of it.
-// With a given mesh.membrane, on that mesh and on one of three quarters of its nodes. Throws NumericsFailure,
+// With a given mesh.membrane, on that mesh and on two coarser ones. Throws NumericsFailure,
 // Interrupted, and what `spend` of `control` throws.
 RefinedState refine(const Case &input, const SteadyState &state, const Control &control);
 

@@ -118,7 +118,9 @@ void SteadySystem::fit_tube(const Vector &unknowns) {
 double SteadySystem::admissible_step(const Vector &unknowns, const Vector &change) const {
   constexpr double keep = 0.3; // share of the distance
   const Eigen::Index n = nodes();
-  double step = 1;
+  const auto x = unknowns.head(n);
+  const double length = x.maxCoeff() - x.minCoeff();
+  double step = std::min(1.0, length / change.head(n).cwiseAbs().maxCoeff());
   for (Eigen::Index k = n; k < 2 * n; ++k) {
     const double r = unknowns[k];
     if (change[k] < 0)

@@ -46,7 +46,8 @@ public:
 
   // Builds a longer tube, with more images, if the membrane has come too near to its ends.
   void fit_tube(const Vector &unknowns);
-  // The largest part of a change, up to 1, that leaves to each node a share of its distance to the wall and to the axis.
+  // The largest part of a change, up to 1, that leaves to each node a share of its distance to the wall and to the axis, and
+  // moves none along the axis by more than the membrane's length.
   double admissible_step(const Vector &unknowns, const Vector &change) const;
 
   Vector residual(const Vector &unknowns) const;
