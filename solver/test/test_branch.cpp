@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(a_branch_that_breaks_off) {
   Control control;
   int asked = 0;
   control.interrupted = [&]() -> bool {
-    if (++asked > 32)
+    if (++asked > 20)
       throw NumericsFailure("unresolved", "no way on", "none");
     return false;
   };
