@@ -54,6 +54,11 @@ double KeyPath::value(double part) const {
   return is_straight() ? from_ + part * (to_ - from_) : std::pow(root(part), power);
 }
 
+double KeyPath::part(double value) const {
+  const auto even = [&](double v) { return is_straight() ? v : std::pow(v, 1 / power); };
+  return (even(value) - even(from_)) / (even(to_) - even(from_));
+}
+
 double KeyPath::slope(double part) const {
   return is_straight() ? to_ - from_
                        : power * std::pow(root(part), power - 1) *

@@ -28,6 +28,7 @@ public:
   const std::string &key() const { return key_; }
   bool needed() const { return from_ != to_; }
   double value(double part) const;
+  double part(double value) const; // its inverse
   double slope(double part) const; // d value/d part
   Case at(double part) const;
   std::string text(double part) const; // "flow.capillary_number = 0.05", in physical units "... (20 nl/s)"

@@ -196,11 +196,21 @@ void Branch::advance() {
   });
 }
 
+// From a guess on the cubic through the last two points, by the slopes at the last one while they do.
 BranchPoint Branch::at_parameter(double parameter) const {
-  const double part = (parameter - before_.parameter) / (point_.parameter - before_.parameter);
+  const Eigen::Index m = point_.unknowns.size();
+  const auto beyond = [&](double step) { return point_.parameter + way_to_guess(step)[m] - parameter; };
+  Vector chord(m + 1);
+  chord << point_.unknowns - before_.unknowns, point_.parameter - before_.parameter;
+  const double first = -weighted(chord, tangent_);
+  std::uintmax_t evaluations = 30;
+  const auto found = boost::math::tools::toms748_solve(
+      beyond, first, 0.0, before_.parameter - parameter, point_.parameter - parameter,
+      boost::math::tools::eps_tolerance<double>(30), evaluations);
   system_->set_parameters(path_.at(parameter));
-  const Vector guess = before_.unknowns + part * (point_.unknowns - before_.unknowns);
-  return {solve_steady(*system_, guess), parameter};
+  return {solve_steady(*system_, point_.unknowns + way_to_guess((found.first + found.second) / 2).head(m),
+                       slopes_->linear.jacobian.partialPivLu()),
+          parameter};
 }
 
 double Branch::plain_step() const {

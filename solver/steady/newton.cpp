@@ -2,18 +2,16 @@
 #include "base/failure.hpp"
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace capsule {
 
 // A matrix is kept while corrections shrink fast with it: a residual costs a small part of a linearisation. What is left
 // after a correction is about the next one, which the last ratio tells.
-Vector solve_steady(SteadySystem &system, Vector guess) {
+Vector solve_steady(SteadySystem &system, Vector guess, std::optional<Eigen::PartialPivLU<Matrix>> factors) {
   constexpr double farthest = 3; // that a guess can be from a solution
   constexpr double near = 1e-2;  // after a correction as small the matrix may do for the next one
   constexpr double fast = 0.1;   // ratio of corrections with the same matrix
   const Eigen::Index n2 = 2 * system.nodes();
-  std::optional<Eigen::PartialPivLU<Matrix>> factors;
   double before = 1;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     system.fit_tube(guess);

@@ -2,6 +2,7 @@
 // Newton's method for the equations of steady_system.hpp at given parameters.
 #include "base/failure.hpp"
 #include "steady/steady_system.hpp"
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,8 +13,10 @@ constexpr double position_tolerance = 1e-9;
 constexpr int most_iterations = 25;
 
 // The steady state next to a guess, at the parameters that the system has. Throws NumericsFailure: "unresolved" if
-// Newton's method does not converge, or what is wrong with a shape on the way.
-Vector solve_steady(SteadySystem &system, Vector guess);
+// Newton's method does not converge, or what is wrong with a shape on the way. Of a state nearby the factors of the slopes
+// may be given.
+Vector solve_steady(SteadySystem &system, Vector guess,
+                    std::optional<Eigen::PartialPivLU<Matrix>> factors = std::nullopt);
 
 // For any iteration of Newton's method: whether it can still converge after corrections of these lengths, one after
 // the other; and what is thrown if not.

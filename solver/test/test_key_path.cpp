@@ -46,6 +46,8 @@ BOOST_AUTO_TEST_CASE(from_one_value_to_another) {
     double before = path.value(0);
     for (const double part : {0.2, 0.4, 0.6, 0.8, 1.0}) {
       BOOST_TEST((path.value(part) - before) * (to - 1e-2) >= 0);
+      if (path.needed())
+        BOOST_TEST(std::abs(path.part(path.value(part)) - part) < 1e-14);
       before = path.value(part);
     }
     Case there = path.at(0.3);

@@ -1,18 +1,19 @@
-// The steady pressure drop and film over the plane of size and capillary number, both laws: each row of the map goes
-// from point to neighbouring point.
+// The steady pressure drop and film over the plane of size and capillary number, both laws: each row of the map lies on a
+// branch.
 #include "study.hpp"
 #include "base/failure.hpp"
+#include "case/key_path.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
-#include "steady/growth_rates.hpp"
+#include "steady/continuation.hpp"
 #include "steady/mesh_change.hpp"
-#include "steady/newton.hpp"
 #include "steady/refinement.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <map>
 #include <sstream>
 
@@ -21,7 +22,7 @@ using namespace capsule;
 namespace {
 
 constexpr int rows = 10, columns = 20; // of each law: sizes, capillary numbers
-constexpr int nodes = 72;
+constexpr int nodes = 60;
 constexpr double bending_ratio = 1e-2; // softer shells buckle in the weakest flows
 constexpr double allowed = 1e-4;       // relative, of the pressure drop against another mesh
 
@@ -44,68 +45,56 @@ Case case_at(const MembraneLaw &law, int row, int column) {
   return physics;
 }
 
-// From a steady state to the neighbour at a higher capillary number, in shorter steps if need be; false where there is
-// none. Beyond a fold Newton's method may find the far side of the branch, where small motions grow.
-bool go(const Case &from, double capillary_number, SteadyState &state, int halvings = 3) {
-  Case to = from;
-  to.flow.capillary_number = capillary_number;
-  state.system->set_parameters(to);
+// Along the branch from a steady state to a capillary number at its end: through folds, as far as the branch is found and
+// no part is stretched without end. `look` is shown each steady state at a column's capillary number.
+void follow(const Case &from, SteadyState state, double to,
+            const std::function<void(const SteadyState &, int)> &look) {
+  constexpr int most_steps = 50;
+  constexpr double farthest_stretch = 4;
+  constexpr Branch::Steps steps{
+      .first = 0.02, .largest = 0.1, .tolerance = 1e-8, .largest_unresolved_part = 3e-5};
+  const KeyPath path("flow.capillary_number", from, to);
   try {
-    const Vector found = solve_steady(*state.system, state.unknowns);
-    if (growth_rates(*state.system, found, 1)[0].real() < 0) {
-      state.unknowns = found;
-      return true;
+    Branch branch(*state.system, path, {state.unknowns, 0}, Branch::upwards(*state.system), steps);
+    for (int step = 0; step < most_steps && branch.point().parameter >= 0 && branch.point().parameter < 1 &&
+                       !branch.wants_a_finer_mesh() &&
+                       state.system->largest_stretch(branch.point().unknowns) < farthest_stretch;
+         ++step) {
+      const double before = branch.point().parameter;
+      branch.advance();
+      const double after = branch.point().parameter;
+      for (int column = 0; column < columns; ++column)
+        if (const double part = path.part(capillary_number_of(column));
+            std::min(before, after) < part && part <= std::max(before, after)) {
+          state.unknowns = branch.at_parameter(part).unknowns;
+          look(state, column);
+        }
     }
-  } catch (const NumericsFailure &) {
-  }
-  if (halvings == 0)
-    return false;
-  to.flow.capillary_number = std::sqrt(from.flow.capillary_number * capillary_number);
-  return go(from, to.flow.capillary_number, state, halvings - 1) &&
-         go(to, capillary_number, state, halvings - 1);
-}
-
-// A stable steady state from nothing: the other branch where the neighbour's ends because the rear buckles.
-bool begin_again(const Case &physics, SteadyState &state) {
-  try {
-    SteadyState found = on_mesh(physics, nodes, find_steady(physics, {}, {}));
-    if (growth_rates(*found.system, found.unknowns, 1)[0].real() >= 0)
-      return false;
-    state = std::move(found);
-    return true;
-  } catch (const NumericsFailure &) {
-    return false;
+  } catch (const NumericsFailure &) { // the branch is not found any further
   }
 }
 
 // One size: lines of the map from the middle capillary number upwards and downwards, as far as there are stable steady
-// states. The last line, "end,...", compares the middle point with another mesh.
+// states. Where a branch turns twice, the first of two stable ones counts. The last line, "end,...", compares the middle
+// point with another mesh.
 std::string row_of_map(const MembraneLaw &law, int row) {
   constexpr int middle = columns / 3;
   const Case start = case_at(law, row, middle);
   const SteadyState middle_state = on_mesh(start, nodes, find_steady(start, {}, {}));
   std::map<int, std::string> lines;
   const auto look_at = [&](const SteadyState &state, int column) {
-    const Case now = case_at(law, row, column);
-    state.system->set_parameters(now);
     const SteadyRecord record = record_steady(state, 1);
-    lines[column] =
-        fmt::format("{},{:.3g},{:.6f},{:.7f},{:.7f},{:.7f},{:.6f},{:.5f}\n", law.law().name, radius_of(row),
-                    now.flow.capillary_number, record.row.pressure_drop, record.row.v_g, record.row.min_film,
-                    record.row.max_stretch, record.further.at("growth_rate"));
+    if (record.further.at("growth_rate") < 0 && !lines.contains(column))
+      lines[column] =
+          fmt::format("{},{:.3g},{:.6f},{:.7f},{:.7f},{:.7f},{:.6f},{:.5f}\n", law.law().name, radius_of(row),
+                      capillary_number_of(column), record.row.pressure_drop, record.row.v_g,
+                      record.row.min_film, record.row.max_stretch, record.further.at("growth_rate"));
     return record.row.pressure_drop;
   };
   const double pressure = look_at(middle_state, middle);
   const double finer = record_steady(on_mesh(start, finer_mesh(nodes), middle_state), 1).row.pressure_drop;
-  for (const int towards : {-1, 1}) {
-    SteadyState state = on_mesh(start, nodes, middle_state);
-    for (int column = middle + towards; column >= 0 && column < columns; column += towards) {
-      if (!go(case_at(law, row, column - towards), capillary_number_of(column), state) &&
-          !begin_again(case_at(law, row, column), state))
-        break;
-      look_at(state, column);
-    }
-  }
+  for (const int end : {0, columns - 1})
+    follow(start, middle_state, capillary_number_of(end), look_at);
   std::string text;
   for (int column = 0; column < columns; ++column) // gnuplot draws grids: each row as long as the others
     text += lines.contains(column) ? lines[column]
