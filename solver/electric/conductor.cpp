@@ -1,6 +1,7 @@
 #include "electric/conductor.hpp"
 #include "flow/recycled_solver.hpp"
 #include "flow/wall.hpp"
+#include "integrals/elliptic.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -59,11 +60,12 @@ Targets joined(const Targets &first, const Targets &second) {
 }
 
 // The potential on the nodes -> at the quadrature points of all membranes.
-Matrix at_panels(const MembraneMesh &mesh) {
-  Matrix matrix = Matrix::Zero(mesh.points, mesh.nodes);
+Vector at_panels(const MembraneMesh &mesh, const Vector &potential) {
+  Vector values(mesh.points);
   for (const MembraneMesh::Part &part : mesh.parts)
-    matrix.block(part.first_point, part.first_node, part.points(), part.nodes()) = part.at_panels.even[0];
-  return matrix;
+    values.segment(part.first_point, part.points()).noalias() =
+        part.at_panels.even[0] * potential.segment(part.first_node, part.nodes());
+  return values;
 }
 
 } // namespace
@@ -90,55 +92,82 @@ Conductor::Electrode Conductor::cap_electrode(Curve cap, double centre_x) {
 Conductor::Conductor(const Pore &pore, const FlowResolution &resolution)
     : tolerance_(resolution.near_tolerance) {
   const Pore far = lengthened(pore);
-  const Panels along = wall_panels(far, resolution);
-  wall_ = wall_curve(far, along);
-  near_ = FixedNearRule(wall_, tolerance_);
-  points_ = {wall_.x, wall_.r};
+  Panels &along = whole_.along = wall_panels(far, resolution);
+  const Curve &wall = whole_.wall = wall_curve(far, along);
+  whole_.points = {wall.x, wall.r};
   if (pore.shape == PoreShape::two_mouths) {
     out_ = cap_electrode(cap_behind_exit(far), far.exit_x);
     circle_ = Circle{far.exit_x / 2, 1 + std::min(far.exit_x / 2, 2.0)};
   } else {
     out_.section = make_outlet(far, tolerance_).curve;
-    points_ = joined(points_, {Vector::Constant(1, far.exit_x), Vector::Zero(1)});
+    whole_.points = joined(whole_.points, {Vector::Constant(1, far.exit_x), Vector::Zero(1)});
   }
   section_near_ = NearRule(out_.section.panel_points, tolerance_);
 
-  const Eigen::Index n = wall_.size();
-  const Targets on_axis = {points_.x.tail(points_.size() - n), points_.r.tail(points_.size() - n)};
+  const Eigen::Index n = wall.size();
+  const NearRule near(wall.panel_points, tolerance_);
   const SelfRule self = make_self_rule(along, along.points, 0); // the curvature jumps at the lip
   RowMatrix on_wall;
-  assemble_layer(ring_dipole, on_itself(wall_, along, self), wall_, &self,
-                 NearRule(wall_.panel_points, tolerance_), on_wall);
+  assemble_layer(ring_dipole, on_itself(wall, along, self), wall, &self, near, on_wall);
   RowMatrix matrix(n + 1, n + 1);
-  matrix.topRows(n) << on_wall, behind_section({wall_.x, wall_.r});
-  if (circle_)
-    matrix.row(n) << flux_of_dipoles(wall_).transpose(), -flux_of_dipoles(out_.section).sum();
-  else
-    matrix.row(n) = response(on_axis);
+  matrix.topRows(n) << on_wall, behind_section({wall.x, wall.r});
+  if (circle_) {
+    matrix.row(n) << flux_of_dipoles(wall).transpose(), -flux_of_dipoles(out_.section).sum();
+  } else {
+    const Targets on_axis{whole_.points.x.tail(1), whole_.points.r.tail(1)};
+    RowMatrix at_point;
+    assemble_layer(ring_dipole, on_axis, wall, nullptr, near, at_point);
+    matrix.row(n) << at_point, behind_section(on_axis);
+  }
   matrix.diagonal().head(circle_ ? n : n + 1).array() += 0.5;
-  inverse_ = matrix.partialPivLu().inverse();
+  Vector weights(n + 1);
+  weights << wall.area, 1;
+  whole_.inverse = weights.asDiagonal() * matrix.partialPivLu().inverse();
 
   if (pore.shape == PoreShape::tube) {
     empty_resistance_ = pore.exit_x + pore.entrance_distance;
   } else {
     in_ = cap_electrode(cap_before_mouth(far), 0);
-    base_ = inverse_ * source_in_equations();
-    empty_resistance_ = base_[n] - (far.exit_x - pore.exit_x);
+    whole_.base = whole_.inverse * source_in_equations();
+    empty_resistance_ = whole_.base[n] - (far.exit_x - pore.exit_x);
   }
 }
 
-// Potential at points off the wall from that of the wall's points and the one far away.
-RowMatrix Conductor::response(const Targets &points) const {
-  const Eigen::Index n = wall_.size();
-  const Rings rings = rings_of(wall_, 0, n);
+const Conductor::Surface &Conductor::felt_by(const MembraneMesh &mesh, const Vector &position) const {
+  std::vector<Surroundings> place = place_of(mesh, position);
+  if (place != place_) {
+    Surface felt;
+    felt.along = make_panels(joined_panels(whole_.along, whole_.wall, tolerance_, place),
+                             static_cast<int>(whole_.along.rule.size()));
+    felt.wall = on_longer_panels(whole_.wall, whole_.along, felt.along);
+    felt.near = FixedNearRule(felt.wall, tolerance_);
+    const Eigen::Index others = whole_.points.size() - whole_.wall.size();
+    felt.points =
+        joined({felt.wall.x, felt.wall.r}, {whole_.points.x.tail(others), whole_.points.r.tail(others)});
+    const Joining joining(whole_.along, felt.along, 1);
+    felt.inverse = joining.columns(joining.rows(whole_.inverse));
+    if (whole_.base.size() > 0)
+      felt.base = joining.rows(whole_.base);
+    felt_ = std::move(felt);
+    place_ = std::move(place);
+  }
+  return felt_;
+}
+
+// Potential at points off the wall from the surface's unknowns.
+RowMatrix Conductor::response(const Surface &surface, const Targets &points) const {
+  const Curve &wall = surface.wall;
+  const Eigen::Index n = wall.size();
+  const Rings rings = rings_of(wall, 0, n);
   RowMatrix response(points.size(), n + 1);
   for (Eigen::Index i = 0; i < points.size(); ++i) {
     auto row = response.row(i).head(n);
     ring_dipole.plain(points.x[i], points.r[i], rings, {row.data()});
-    row.array() *= wall_.area.transpose().array();
-    near_.at_near_panels(
-        ring_dipole, points.x[i], points.r[i],
-        [&](Eigen::Index first, const KernelBlock &block) { row.segment(first, block.cols()) = block; });
+    surface.near.at_near_panels(ring_dipole, points.x[i], points.r[i],
+                                [&](Eigen::Index first, const KernelBlock &block) {
+                                  const auto area = wall.area.segment(first, block.cols()).transpose();
+                                  row.segment(first, block.cols()) = block.cwiseQuotient(area);
+                                });
   }
   response.col(n) = behind_section(points);
   return response;
@@ -160,29 +189,55 @@ Vector Conductor::behind_section(const Targets &points) const {
 }
 
 // What is known of u_0 where the current comes and leaves.
-Vector Conductor::source_of_current(const Targets &points) const {
+Vector Conductor::source_of_current(const Targets &points, const Vector &behind_section) const {
   Vector source = out_.field * layer(ring_source, points, out_.section) -
                   in_.field * layer(ring_source, points, in_.section);
-  for (const Electrode *end : {&out_, &in_})
-    if (end->potential > 0)
-      source -= end->potential * layer(ring_dipole, points, end->section);
-  return source;
+  if (out_.potential > 0)
+    source += out_.potential * behind_section; // in no plane
+  return source - in_.potential * layer(ring_dipole, points, in_.section);
 }
 
-// The double layer of a curve in the left sides of the equations, from potentials at its points.
-RowMatrix Conductor::in_equations(const Curve &dipoles, const NearRule &near) const {
-  RowMatrix layer;
-  assemble_layer(ring_dipole, points_, dipoles, nullptr, near, layer);
+Vector Conductor::ToWall::of(const Vector &potential, const Vector &on_panels) const {
+  Vector result = from_nodes * potential;
+  if (!near.empty())
+    result(near) = from_panels * on_panels;
+  return result;
+}
+
+Conductor::ToWall Conductor::to_wall(const Surface &surface, const MembraneMesh &mesh,
+                                     const MembraneShape &shape) const {
+  const Targets &points = surface.points;
+  std::vector<NodesNearby> membranes;
+  for (std::size_t k = 0; k < mesh.parts.size(); ++k)
+    membranes.emplace_back(mesh, shape, k);
+  const auto near = [&](double x, double r) {
+    return std::ranges::any_of(membranes, [&](const NodesNearby &nodes) { return nodes.hold(x, r); });
+  };
+  const Rings rings = rings_of(shape.nodes, 0, mesh.nodes);
+  ToWall result{RowMatrix::Zero(surface.inverse.cols(), mesh.nodes), {}, {}};
+  for (Eigen::Index i = 0; i < points.size(); ++i)
+    if (near(points.x[i], points.r[i]))
+      result.near.push_back(i);
+    else
+      ring_dipole.plain(points.x[i], points.r[i], rings, {result.from_nodes.row(i).data()});
+  result.from_nodes.array().rowwise() *= shape.nodes.area.transpose().array();
+  assemble_layer(ring_dipole, {points.x(result.near), points.r(result.near)}, shape.panels, nullptr,
+                 mesh.near, result.from_panels);
   if (!circle_)
-    return layer;
-  RowMatrix with_flux(layer.rows() + 1, layer.cols());
-  with_flux << layer, flux_of_dipoles(dipoles).transpose();
-  return with_flux;
+    return result;
+  if (near(circle_->x, circle_->radius)) {
+    result.near.push_back(points.size());
+    result.from_panels.conservativeResize(result.from_panels.rows() + 1, shape.panels.size());
+    result.from_panels.bottomRows(1) = flux_of_dipoles(shape.panels).transpose();
+  } else {
+    result.from_nodes.bottomRows(1) = flux_of_dipoles(shape.nodes).transpose();
+  }
+  return result;
 }
 
 // What is known of u_0 in the right sides.
 Vector Conductor::source_in_equations() const {
-  Vector at_points = source_of_current(points_);
+  Vector at_points = source_of_current(whole_.points, behind_section(whole_.points));
   if (!circle_)
     return at_points;
   constexpr double current = 0.5; // pi over the azimuth's 2 pi
@@ -203,8 +258,10 @@ Vector Conductor::flux_of_dipoles(const Curve &dipoles) const {
   for (Eigen::Index i = 0; i < flux.size(); ++i) {
     const double x = dipoles.x[i] - circle_->x, r = dipoles.r[i];
     const double far2 = (a + r) * (a + r) + x * x, near2 = (a - r) * (a - r) + x * x;
-    const double modulus = std::sqrt(4 * a * r / far2);
-    const double k = std::comp_ellint_1(modulus), e = std::comp_ellint_2(modulus);
+    const Ratio m1 = ratio(near2, far2, 4 * a * r);
+    const double m = 4 * a * r * m1.over_denominator;
+    const EllipticIntegrals integrals = elliptic_integrals(m, m1.value, m1.natural_logarithm);
+    const double k = integrals.b + integrals.d, e = integrals.b + m1.value * integrals.d;
     const double factor = 1 / (2 * std::numbers::pi * std::sqrt(far2));
     const double field_x = factor * (k + (a * a - r * r - x * x) / near2 * e);
     const double field_r = factor * x / r * ((a * a + r * r + x * x) / near2 * e - k);
@@ -221,15 +278,15 @@ double Conductor::flux_of_sources(const Curve &sources) const {
 
 double Conductor::change(const MembraneMesh &mesh, const Vector &position) const {
   const MembraneShape shape = shape_at(mesh, position);
-  const RowMatrix from_wall = response(shape.targets);
+  const Surface &wall = felt_by(mesh, position);
+  const RowMatrix from_wall = response(wall, shape.targets);
   RowMatrix to_nodes;
   assemble_layer(ring_dipole, shape.targets, shape.panels, &mesh.parts[0].self, mesh.near, to_nodes);
-  const RowMatrix to_wall = in_equations(shape.panels, mesh.near);
-  const Matrix interpolation = at_panels(mesh);
+  const ToWall to_wall = this->to_wall(wall, mesh, shape);
 
   Vector base = shape.targets.x;
-  if (base_.size() > 0)
-    base = source_of_current(shape.targets) - from_wall * base_;
+  if (wall.base.size() > 0)
+    base = source_of_current(shape.targets, from_wall.col(wall.wall.size())) - from_wall * wall.base;
   for (const MembraneMesh::Part &part : mesh.parts) { // a constant on a membrane is no disturbance
     auto on_part = base.segment(part.first_node, part.nodes());
     on_part.array() -= on_part.mean();
@@ -237,17 +294,20 @@ double Conductor::change(const MembraneMesh &mesh, const Vector &position) const
   // 1/2 is most of the operator: its inverse leaves few corrections.
   Recycled start{2 * Matrix::Identity(mesh.nodes, mesh.nodes), {}, {}};
   const auto apply = [&](const Vector &potential) -> Vector {
-    const Vector on_panels = interpolation * potential;
-    return 0.5 * potential + to_nodes * on_panels - from_wall * (inverse_ * (to_wall * on_panels));
+    const Vector on_panels = at_panels(mesh, potential);
+    return 0.5 * potential + to_nodes * on_panels -
+           from_wall * (wall.inverse * to_wall.of(potential, on_panels));
   };
   const Vector potential = solve_recycled(
-      position, tolerance_, start, [&](const Vector &guess) { return Vector(base - apply(guess)); }, apply,
+      position, tolerance_, start,
+      [&](const Vector &guess) { return guess.isZero(0) ? base : Vector(base - apply(guess)); }, apply,
       [&]() -> Matrix {
-        Matrix system = (to_nodes - (from_wall * inverse_) * to_wall) * interpolation;
-        system.diagonal().array() += 0.5;
+        Matrix system(mesh.nodes, mesh.nodes);
+        for (Eigen::Index k = 0; k < mesh.nodes; ++k)
+          system.col(k) = apply(Vector::Unit(mesh.nodes, k));
         return system;
       });
-  return -inverse_.row(wall_.size()).dot(to_wall * (interpolation * potential));
+  return -wall.inverse.row(wall.wall.size()).dot(to_wall.of(potential, at_panels(mesh, potential)));
 }
 
 } // namespace capsule

@@ -8,11 +8,13 @@
 // The membranes change the resistance by w_+, the disturbance far away behind a section: in the tube, where the wall goes
 // on without end, or behind a second mouth, where the section is a cap. At the other end w vanishes. The last row of A says
 // that w carries no current: w_+ on the section itself, or behind a second mouth, where the potential of a current fades,
-// no flux through a circle around the tube. A is of the second kind and inverted once.
-#include "flow/membrane_mesh.hpp"
+// no flux through a circle around the tube. A is of the second kind and inverted once; distant panels of the wall are
+// joined (joined_panels.hpp). Membranes act on what is far from them by the rule on their nodes.
+#include "flow/joined_panels.hpp"
 #include "flow/outlet.hpp"
 #include "geometry/pore.hpp"
 #include <optional>
+#include <vector>
 
 namespace capsule {
 
@@ -29,7 +31,8 @@ public:
 
   // Between the electrodes and the end of the pore, or the electrodes behind it; of a tube between its ends.
   double empty_resistance() const { return empty_resistance_; }
-  // What the membranes add at a position, 2N. Throws NumericsFailure("unresolved") if their potential is not found.
+  // What the membranes add at a position, 2N. It depends on the position alone. Throws NumericsFailure("unresolved") if
+  // their potential is not found.
   double change(const MembraneMesh &mesh, const Vector &position) const;
 
 private:
@@ -46,24 +49,41 @@ private:
     double x, radius;
   };
 
-  RowMatrix response(const Targets &points) const;
-  RowMatrix in_equations(const Curve &dipoles, const NearRule &near) const;
+  // The wall, or what a place feels of it. Its unknowns are dipoles, potentials times area, and w_+.
+  struct Surface {
+    Panels along;
+    Curve wall;
+    FixedNearRule near;
+    Targets points;    // of the equations, but for that of the circle
+    RowMatrix inverse; // equations -> unknowns
+    Vector base;       // unknowns of u_0; empty where u_0 = x
+  };
+
+  // The left sides of the equations from the potential of membranes.
+  struct ToWall {
+    RowMatrix from_nodes;           // by the rule on the nodes
+    std::vector<Eigen::Index> near; // equations that are too near for it
+    RowMatrix from_panels;          // these, from the quadrature points
+    Vector of(const Vector &potential, const Vector &on_panels) const;
+  };
+
+  const Surface &felt_by(const MembraneMesh &mesh, const Vector &position) const;
+  RowMatrix response(const Surface &surface, const Targets &points) const;
+  ToWall to_wall(const Surface &surface, const MembraneMesh &mesh, const MembraneShape &shape) const;
   Vector source_in_equations() const;
   Vector flux_of_dipoles(const Curve &dipoles) const;
   double flux_of_sources(const Curve &sources) const;
   Vector layer(const RingKernel &kernel, const Targets &points, const Curve &section) const;
   Vector behind_section(const Targets &points) const;
-  Vector source_of_current(const Targets &points) const;
+  Vector source_of_current(const Targets &points, const Vector &behind_section) const;
 
   double tolerance_; // of near panels and of potentials
   NearRule section_near_;
-  Curve wall_;
-  FixedNearRule near_;
   Electrode out_, in_;           // behind the section out_ the wall has no end; none closes a tube
   std::optional<Circle> circle_; // of the last equation, which is that of a point otherwise
-  Targets points_;               // of the other equations
-  RowMatrix inverse_;            // A^(-1)
-  Vector base_;                  // u_0 on the wall and behind the section; empty where u_0 = x
+  Surface whole_;
+  mutable std::vector<Surroundings> place_; // the last one
+  mutable Surface felt_;                    // there
   double empty_resistance_ = 0;
 };
 

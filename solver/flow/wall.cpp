@@ -1,7 +1,5 @@
 #include "flow/wall.hpp"
-#include <algorithm>
-#include <array>
-#include <vector>
+#include "flow/joined_panels.hpp"
 
 namespace capsule {
 namespace {
@@ -89,105 +87,13 @@ Wall::Wall(const Pore &pore, const FlowResolution &resolution)
   }
 }
 
-namespace {
-
-// P, which interpolates values at the points of the whole wall from those of longer panels, in the order of the unknowns:
-// axial components, that of the outlet, radial ones.
-class Joining {
-public:
-  Joining(const Panels &whole, const Panels &longer)
-      : fine_(whole.points.size()), coarse_(longer.points.size()) {
-    const Eigen::Index p = longer.rule.size();
-    Eigen::Index begin = 0;
-    for (Eigen::Index k = 0; k < longer.count(); ++k) {
-      Eigen::Index end = begin + 1;
-      while (whole.edges[end] < longer.edges[k + 1])
-        ++end;
-      const Eigen::Index count = (end - begin) * p;
-      joined_.push_back({begin * p, count, k * p, p, {}});
-      if (count > p)
-        joined_.back().interpolation =
-            lagrange_matrix(longer.points.segment(k * p, p), whole.points.segment(begin * p, count));
-      begin = end;
-    }
-  }
-
-  // P^T M
-  RowMatrix rows(const RowMatrix &matrix) const {
-    RowMatrix result(2 * coarse_ + 1, matrix.cols());
-    result.row(coarse_) = matrix.row(fine_);
-    for_each_component([&](const Joined &panel, Eigen::Index from, Eigen::Index to) {
-      const auto values = matrix.middleRows(from, panel.count);
-      if (panel.interpolation.size() == 0)
-        result.middleRows(to, panel.points) = values;
-      else
-        result.middleRows(to, panel.points).noalias() = panel.interpolation.transpose() * values;
-    });
-    return result;
-  }
-
-  // M P
-  RowMatrix columns(const RowMatrix &matrix) const {
-    RowMatrix result(matrix.rows(), 2 * coarse_ + 1);
-    result.col(coarse_) = matrix.col(fine_);
-    for_each_component([&](const Joined &panel, Eigen::Index from, Eigen::Index to) {
-      const auto values = matrix.middleCols(from, panel.count);
-      if (panel.interpolation.size() == 0)
-        result.middleCols(to, panel.points) = values;
-      else
-        result.middleCols(to, panel.points).noalias() = values * panel.interpolation;
-    });
-    return result;
-  }
-
-private:
-  // Points of the whole wall and those of the longer panel that they become; as they are without an interpolation.
-  struct Joined {
-    Eigen::Index begin, count, first, points;
-    Matrix interpolation;
-  };
-
-  // Applies `use(panel, first unknown of the whole wall, first one of the longer panels)`.
-  template <class Use>
-  void for_each_component(const Use &use) const {
-    for (const Joined &panel : joined_) {
-      use(panel, panel.begin, panel.first);
-      use(panel, fine_ + 1 + panel.begin, coarse_ + 1 + panel.first);
-    }
-  }
-
-  Eigen::Index fine_, coarse_; // points
-  std::vector<Joined> joined_;
-};
-
-} // namespace
-
-Curve on_longer_panels(const Curve &curve, const Panels &whole, const Panels &longer) {
-  const Eigen::Index p = whole.rule.size();
-  Curve result;
-  result.panel_points = p;
-  result.weights = longer.weights;
-  const std::array fields{&Curve::x, &Curve::r, &Curve::x_zeta, &Curve::r_zeta};
-  for (const auto field : fields)
-    (result.*field).resize(longer.points.size());
-  for (Eigen::Index k = 0; k < longer.points.size(); ++k) {
-    const double *const begin = whole.edges.data();
-    const Eigen::Index panel =
-        std::upper_bound(begin + 1, begin + whole.count(), longer.points[k]) - begin - 1;
-    const Matrix share = lagrange_matrix(whole.points.segment(panel * p, p), longer.points.segment(k, 1));
-    for (const auto field : fields)
-      (result.*field)[k] = share.row(0) * (curve.*field).segment(panel * p, p);
-  }
-  complete(result);
-  return result;
-}
-
 Wall::Wall(const Wall &whole, const Vector &edges)
     : panels_(make_panels(edges, static_cast<int>(whole.panels_.rule.size()))),
       curve_(on_longer_panels(whole.curve_, whole.panels_, panels_)), near_tolerance_(whole.near_tolerance_),
       near_(whole.near_), fixed_near_(curve_, near_tolerance_), outlet_(whole.outlet_),
       closed_form_(whole.closed_form_), base_pressure_drop_(whole.base_pressure_drop_) {
-  const Joining joining(whole.panels_, panels_);
+  constexpr int components = 2;
+  const Joining joining(whole.panels_, panels_, components);
   inverse_ = joining.columns(joining.rows(whole.inverse_)); // P^T A^(-1) P
   weights_ = joining.rows(whole.weights_);
   if (whole.base_forces_.size() > 0)

@@ -15,8 +15,6 @@ namespace capsule {
 // Panels by arc length from the outlet to the entrance, and the wall at their points, with the normal into the liquid.
 Panels wall_panels(const Pore &pore, const FlowResolution &resolution);
 Curve wall_curve(const Pore &pore, const Panels &along);
-// The curve on longer panels, each of which holds whole ones: interpolated from the panels that hold its points.
-Curve on_longer_panels(const Curve &curve, const Panels &whole, const Panels &longer);
 
 class Wall {
 public:

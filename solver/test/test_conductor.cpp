@@ -154,6 +154,15 @@ BOOST_AUTO_TEST_CASE(ends_of_the_pore_do_not_count) {
     BOOST_TEST(std::abs(standard.sphere(x, 0.8) - other.sphere(x, 0.8)) < 1e-8);
 }
 
+// Distant panels are joined for a place; where the sphere was before does not count.
+BOOST_AUTO_TEST_CASE(depends_on_the_position_alone) {
+  const Pore pore = make_pore({.shape = PoreShape::two_mouths, .exit_x = 6}).value();
+  const Meter meter(pore, 40);
+  const double here = meter.sphere(3.4, 0.8);
+  meter.sphere(-2, 0.8);
+  BOOST_TEST(meter.sphere(3.4, 0.8) == here);
+}
+
 // scenes.md, another program.
 BOOST_AUTO_TEST_CASE(sphere_in_the_mouth) {
   const Meter meter(make_pore({}).value(), 60);
