@@ -60,10 +60,11 @@ Matrix waves(bool cosine, const Vector &points, Eigen::Index first, Eigen::Index
   Matrix values(points.size(), count);
   const Eigen::ArrayXd turn_c = points.array().cos(), turn_s = points.array().sin();
   Eigen::ArrayXd c = Eigen::ArrayXd::Ones(points.size()), s = Eigen::ArrayXd::Zero(points.size());
+  Eigen::ArrayXd turned(points.size());
   for (Eigen::Index k = 0; k < first + count; ++k) {
     if (k >= first)
       values.col(k - first) = cosine ? c : s;
-    const Eigen::ArrayXd turned = c * turn_c - s * turn_s;
+    turned = c * turn_c - s * turn_s;
     s = s * turn_c + c * turn_s;
     c = turned;
   }
@@ -74,6 +75,8 @@ Matrix waves(bool cosine, const Vector &points, Eigen::Index first, Eigen::Index
 Matrix waves(const Vector &points, Eigen::Index n, int first_k, int quarter_turns, int derivative) {
   const int turn = (quarter_turns + derivative + 4) % 4;
   Matrix values = waves(turn % 2 == 0, points, first_k, n);
+  if (derivative == 0 && turn != 1 && turn != 2)
+    return values;
   for (Eigen::Index column = 0; column < n; ++column)
     values.col(column) *=
         std::pow(static_cast<double>(first_k + column), derivative) * (turn == 1 || turn == 2 ? -1 : 1);
@@ -213,6 +216,11 @@ Vector MeridianBasis::even(const Vector &points, int derivative, const Vector &a
 Vector MeridianBasis::odd(const Vector &points, int derivative, const Vector &at_nodes) const {
   return spline ? Vector(odd(points, derivative) * at_nodes)
                 : Vector(waves(points, size(), 1, -1, derivative) * (odd_from_nodes * at_nodes));
+}
+
+Vector MeridianBasis::even_expansion(const Vector &points, int derivative, const Vector &coefficients) const {
+  return spline ? Vector(spline_values(nodes, coefficients, points, derivative))
+                : Vector(waves(points, size(), 0, 0, derivative) * coefficients);
 }
 
 } // namespace capsule

@@ -32,6 +32,8 @@ struct MeridianBasis {
   // These matrices times nodal values, without building them.
   Vector even(const Vector &points, int derivative, const Vector &at_nodes) const;
   Vector odd(const Vector &points, int derivative, const Vector &at_nodes) const;
+  // The same from coefficients of the expansion, even_from_nodes times nodal values: for many small sets of points.
+  Vector even_expansion(const Vector &points, int derivative, const Vector &coefficients) const;
 };
 
 // cos(k zeta) and sin(k zeta) at points, a column for each k = first ... first + count - 1.
