@@ -1,4 +1,5 @@
 #include "geometry/meridian.hpp"
+#include <algorithm>
 #include <cmath>
 #include <gsl/gsl_bspline.h>
 #include <gsl/gsl_errno.h>
@@ -57,16 +58,22 @@ void set_gauss_legendre(int n, MeridianBasis &basis) {
 // cos(k zeta), or sin(k zeta), k = first, first + 1 ...: each wave follows from the one before by a turn by zeta. The
 // error of k turns is that of rounding k zeta.
 Matrix waves(bool cosine, const Vector &points, Eigen::Index first, Eigen::Index count) {
+  constexpr Eigen::Index together = 8;
+  using Block = Eigen::Array<double, together, 1>;
   Matrix values(points.size(), count);
-  const Eigen::ArrayXd turn_c = points.array().cos(), turn_s = points.array().sin();
-  Eigen::ArrayXd c = Eigen::ArrayXd::Ones(points.size()), s = Eigen::ArrayXd::Zero(points.size());
-  Eigen::ArrayXd turned(points.size());
-  for (Eigen::Index k = 0; k < first + count; ++k) {
-    if (k >= first)
-      values.col(k - first) = cosine ? c : s;
-    turned = c * turn_c - s * turn_s;
-    s = s * turn_c + c * turn_s;
-    c = turned;
+  for (Eigen::Index begin = 0; begin < points.size(); begin += together) {
+    const Eigen::Index size = std::min(together, points.size() - begin);
+    Block zeta = Block::Zero();
+    zeta.head(size) = points.segment(begin, size);
+    const Block turn_c = zeta.cos(), turn_s = zeta.sin();
+    Block c = Block::Ones(), s = Block::Zero();
+    for (Eigen::Index k = 0; k < first + count; ++k) {
+      if (k >= first)
+        values.col(k - first).segment(begin, size) = (cosine ? c : s).head(size);
+      const Block turned = c * turn_c - s * turn_s;
+      s = s * turn_c + c * turn_s;
+      c = turned;
+    }
   }
   return values;
 }

@@ -27,8 +27,9 @@ struct HyperbolaPoint {
 
 HyperbolaPoint hyperbola_point(const Pore &pore, double w) {
   const double k = pore.cosine, c = k / pore.sine;
-  const double r = std::hypot(1.0, k * std::sinh(w));
-  return {-k * c * std::sinh(w), r, -k * c * std::cosh(w), k * k * std::sinh(w) * std::cosh(w) / r};
+  const double sine = std::sinh(w), cosine = std::cosh(w);
+  const double r = std::hypot(1.0, k * sine);
+  return {-k * c * sine, r, -k * c * cosine, k * k * sine * cosine / r};
 }
 
 double hyperbola_speed(const Pore &pore, double w) {
