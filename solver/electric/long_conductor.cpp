@@ -13,25 +13,22 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // Next to each zeta, where dx/dzeta vanishes. Errors of it count by their square only.
-Vector extremes_near(Vector zeta, const MeridianBasis &basis, const Vector &x_expansion) {
+Vector extremes_near(Vector zeta, const Meridian &meridian) {
   constexpr int newton_steps = 3;
-  for (int k = 0; k < newton_steps; ++k)
-    zeta =
-        (zeta -
-         basis.even_expansion(zeta, 1, x_expansion).cwiseQuotient(basis.even_expansion(zeta, 2, x_expansion)))
-            .cwiseMax(0)
-            .cwiseMin(pi);
+  for (int k = 0; k < newton_steps; ++k) {
+    const Meridian::Points here = meridian.at(zeta);
+    zeta = (zeta - here.x_1.cwiseQuotient(here.x_2)).cwiseMax(0).cwiseMin(pi);
+  }
   return zeta;
 }
 
 // Where x passes a place of the pore between two zeta.
-double crossing(double place, double low, double high, const MeridianBasis &basis,
-                const Vector &x_expansion) {
+double crossing(double place, double low, double high, const Meridian &meridian) {
   constexpr unsigned digits = 24; // binary: errors count by their third power
   std::uintmax_t most_places = 50;
   const auto [before, after] = boost::math::tools::toms748_solve(
-      [&](double zeta) { return basis.even_expansion(Vector::Constant(1, zeta), 0, x_expansion)[0] - place; },
-      low, high, boost::math::tools::eps_tolerance<double>(digits), most_places);
+      [&](double zeta) { return meridian.at(Vector::Constant(1, zeta)).x[0] - place; }, low, high,
+      boost::math::tools::eps_tolerance<double>(digits), most_places);
   return (before + after) / 2;
 }
 
@@ -53,29 +50,27 @@ Panels panels_between(const std::vector<double> &ends, Eigen::Index n) {
 
 double long_conductor_change(const Pore &pore, const MeridianBasis &basis, const Vector &position) {
   const Eigen::Index n = basis.size();
-  const Vector x = position.head(n), r = position.tail(n);
-  const Vector x_expansion = basis.even_from_nodes * x;
+  const Vector x = position.head(n);
+  const Meridian meridian(basis, position);
   // The outer part of the meridian lies between the points farthest upstream and downstream: poles, or the rim of a
   // concave end.
   Eigen::Index rear = 0, front = 0;
   const double first_x = x.minCoeff(&rear), last_x = x.maxCoeff(&front);
-  const Vector tips = extremes_near(Vector{{basis.nodes[rear], basis.nodes[front]}}, basis, x_expansion);
+  const Vector tips = extremes_near(Vector{{basis.nodes[rear], basis.nodes[front]}}, meridian);
   const double first = tips[0], last = tips[1];
   std::vector<double> ends{first};
   for (const double lip : {0.0, pore.exit_x}) // where the wall's curvature may jump
     if (first_x < lip && last_x > lip)
-      ends.push_back(crossing(lip, first, last, basis, x_expansion));
+      ends.push_back(crossing(lip, first, last, meridian));
   ends.push_back(last);
 
   const Panels panels = panels_between(ends, n);
-  const Vector place = basis.even_expansion(panels.points, 0, x_expansion);
-  const Vector slope = basis.even_expansion(panels.points, 1, x_expansion);
-  const Vector radius = basis.odd(panels.points, 0, r);
+  const Meridian::Points points = meridian.at(panels.points);
   double sum = 0;
-  for (Eigen::Index i = 0; i < place.size(); ++i) {
-    const double wall = wall_radius(pore, place[i]);
-    const double square = radius[i] * radius[i];
-    sum += panels.weights[i] * slope[i] * square / (wall * wall * (wall * wall - square));
+  for (Eigen::Index i = 0; i < panels.points.size(); ++i) {
+    const double wall = wall_radius(pore, points.x[i]);
+    const double square = points.r[i] * points.r[i];
+    sum += panels.weights[i] * points.x_1[i] * square / (wall * wall * (wall * wall - square));
   }
   return sum;
 }

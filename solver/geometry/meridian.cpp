@@ -55,26 +55,40 @@ void set_gauss_legendre(int n, MeridianBasis &basis) {
   }
 }
 
-// cos(k zeta), or sin(k zeta), k = first, first + 1 ...: each wave follows from the one before by a turn by zeta. The
-// error of k turns is that of rounding k zeta.
-Matrix waves(bool cosine, const Vector &points, Eigen::Index first, Eigen::Index count) {
-  constexpr Eigen::Index together = 8;
-  using Block = Eigen::Array<double, together, 1>;
-  Matrix values(points.size(), count);
+// cos(k zeta) and sin(k zeta) of some points: each wave follows from the one before by a turn by zeta. The error of k turns
+// is that of rounding k zeta.
+constexpr Eigen::Index together = 8;
+using Block = Eigen::Array<double, together, 1>;
+struct Turning {
+  Block turn_c, turn_s, c = Block::Ones(), s = Block::Zero();
+  void turn() {
+    const Block turned = c * turn_c - s * turn_s;
+    s = s * turn_c + c * turn_s;
+    c = turned;
+  }
+};
+
+// Applies `use(first point, number of them, their waves with k = 0)`.
+template <class Use>
+void for_each_block(const Vector &points, const Use &use) {
   for (Eigen::Index begin = 0; begin < points.size(); begin += together) {
     const Eigen::Index size = std::min(together, points.size() - begin);
     Block zeta = Block::Zero();
     zeta.head(size) = points.segment(begin, size);
-    const Block turn_c = zeta.cos(), turn_s = zeta.sin();
-    Block c = Block::Ones(), s = Block::Zero();
+    use(begin, size, Turning{.turn_c = zeta.cos(), .turn_s = zeta.sin()});
+  }
+}
+
+// cos(k zeta), or sin(k zeta), k = first, first + 1 ...
+Matrix waves(bool cosine, const Vector &points, Eigen::Index first, Eigen::Index count) {
+  Matrix values(points.size(), count);
+  for_each_block(points, [&](Eigen::Index begin, Eigen::Index size, Turning turning) {
     for (Eigen::Index k = 0; k < first + count; ++k) {
       if (k >= first)
-        values.col(k - first).segment(begin, size) = (cosine ? c : s).head(size);
-      const Block turned = c * turn_c - s * turn_s;
-      s = s * turn_c + c * turn_s;
-      c = turned;
+        values.col(k - first).segment(begin, size) = (cosine ? turning.c : turning.s).head(size);
+      turning.turn();
     }
-  }
+  });
   return values;
 }
 
@@ -225,9 +239,35 @@ Vector MeridianBasis::odd(const Vector &points, int derivative, const Vector &at
                 : Vector(waves(points, size(), 1, -1, derivative) * (odd_from_nodes * at_nodes));
 }
 
-Vector MeridianBasis::even_expansion(const Vector &points, int derivative, const Vector &coefficients) const {
-  return spline ? Vector(spline_values(nodes, coefficients, points, derivative))
-                : Vector(waves(points, size(), 0, 0, derivative) * coefficients);
+Meridian::Meridian(const MeridianBasis &basis, const Vector &position)
+    : basis_(&basis), x_(basis.even_from_nodes * position.head(basis.size())),
+      r_(basis.odd_from_nodes * position.tail(basis.size())) {}
+
+Meridian::Points Meridian::at(const Vector &zeta) const {
+  if (basis_->spline) {
+    const auto x = [&](int derivative) { return spline_values(basis_->nodes, x_, zeta, derivative); };
+    return {x(0), x(1), x(2), spline_values(basis_->nodes, r_, zeta, 0)};
+  }
+  const Eigen::Index n = basis_->size();
+  Points points{Vector(zeta.size()), Vector(zeta.size()), Vector(zeta.size()), Vector(zeta.size())};
+  for_each_block(zeta, [&](Eigen::Index begin, Eigen::Index size, Turning turning) {
+    Block x = Block::Constant(x_[0]), x_1 = Block::Zero(), x_2 = Block::Zero(), r = Block::Zero();
+    for (Eigen::Index k = 1; k <= n; ++k) {
+      turning.turn();
+      r += r_[k - 1] * turning.s;
+      if (k == n)
+        break;
+      const auto wave = static_cast<double>(k);
+      x += x_[k] * turning.c;
+      x_1 -= wave * x_[k] * turning.s;
+      x_2 -= wave * wave * x_[k] * turning.c;
+    }
+    points.x.segment(begin, size) = x.head(size);
+    points.x_1.segment(begin, size) = x_1.head(size);
+    points.x_2.segment(begin, size) = x_2.head(size);
+    points.r.segment(begin, size) = r.head(size);
+  });
+  return points;
 }
 
 } // namespace capsule

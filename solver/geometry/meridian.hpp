@@ -32,8 +32,21 @@ struct MeridianBasis {
   // These matrices times nodal values, without building them.
   Vector even(const Vector &points, int derivative, const Vector &at_nodes) const;
   Vector odd(const Vector &points, int derivative, const Vector &at_nodes) const;
-  // The same from coefficients of the expansion, even_from_nodes times nodal values: for many small sets of points.
-  Vector even_expansion(const Vector &points, int derivative, const Vector &coefficients) const;
+};
+
+// A meridian at a position, 2N, for many small sets of points: expanded once, and no matrix is built.
+class Meridian {
+public:
+  // Refers to the basis, which has to outlive it.
+  Meridian(const MeridianBasis &basis, const Vector &position);
+  struct Points {
+    Vector x, x_1, x_2, r; // x with derivatives in zeta
+  };
+  Points at(const Vector &zeta) const;
+
+private:
+  const MeridianBasis *basis_;
+  Vector x_, r_; // coefficients
 };
 
 // cos(k zeta) and sin(k zeta) at points, a column for each k = first ... first + count - 1.
