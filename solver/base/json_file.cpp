@@ -7,6 +7,14 @@
 
 namespace capsule {
 
+Json parsed_json(const std::string &text) {
+  return Json::parse(text);
+}
+
+std::string json_text(const Json &json, int indentation) {
+  return json.dump(indentation);
+}
+
 std::string in_words(const Json::exception &error) {
   if (const auto *syntax = dynamic_cast<const Json::parse_error *>(&error))
     return fmt::format("it is not valid JSON (byte {})", syntax->byte);

@@ -17,6 +17,10 @@ inline Json finite_or_null(double value) {
 
 // The file's content, or nothing if there is no such file. Throws FileError.
 std::optional<Json> read_json(const std::filesystem::path &file);
+// The library's parser and printer take long to compile: in json_file.cpp and nowhere else. The first throws Json::exception;
+// without an indentation all is on one line.
+Json parsed_json(const std::string &text);
+std::string json_text(const Json &json, int indentation = -1);
 // What is wrong with a content: "it is not valid JSON (byte 17)", "an entry is missing".
 std::string in_words(const Json::exception &error);
 // Throws FileError: the file's content is not what it should be.

@@ -242,7 +242,7 @@ SavedRun saved_run(const Json &json) {
 } // namespace
 
 void write_checkpoint(const fs::path &directory, const std::string &identity, const SavedRun &saved) {
-  const std::string run = to_json(saved).dump();
+  const std::string run = json_text(to_json(saved));
   write_atomically(directory / file_name, fmt::format("{}\"{}\",\"digest\":\"{}\",{}{}}}\n", file_begin,
                                                       identity, digest(run), run_begin, run));
 }
@@ -254,7 +254,7 @@ FoundCheckpoint read_checkpoint(const fs::path &directory, const std::string &id
     return {};
   try {
     const std::string text = read_file(file);
-    const Json json = Json::parse(text);
+    const Json json = parsed_json(text);
     if (json.at("identity") != identity)
       return {.of_another_run = true};
     const std::size_t begin = text.find(run_begin) + run_begin.size(); // "}\n" ends the text

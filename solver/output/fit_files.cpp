@@ -61,7 +61,7 @@ std::string fit_json(const std::string &identity, std::span<const Contour> conto
     json["candidates"].push_back(candidate_json(candidate));
   json["warnings"] = fit.warnings;
   json["cpu_seconds"] = outcome.cpu_seconds;
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 struct Shapes {

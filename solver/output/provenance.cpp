@@ -39,7 +39,7 @@ bool is_as_written(Json json) {
     return true;
   const Json written = json[digest_entry];
   json.erase(digest_entry);
-  return written == digest(json.dump(2));
+  return written == digest(json_text(json, 2));
 }
 
 // The files that an altered run.json still names: a line for each, "series.csv": "0123456789abcdef".
@@ -77,8 +77,8 @@ std::string provenance_text(const Case &physics, const Effort &effort, const Tas
   json["finished"] = now_utc();
   for (const auto &[name, content] : files)
     json["files"][name] = digest(content);
-  json[digest_entry] = digest(json.dump(2));
-  return json.dump(2) + "\n";
+  json[digest_entry] = digest(json_text(json, 2));
+  return json_text(json, 2) + "\n";
 }
 
 Written written_in(const fs::path &directory) {
@@ -88,7 +88,7 @@ Written written_in(const fs::path &directory) {
     return {};
   const std::string text = read_file(file);
   try {
-    const Json json = Json::parse(text);
+    const Json json = parsed_json(text);
     if (json.contains("identity") && is_as_written(json))
       return {.by_a_run = true,
               .identity = json.at("identity"),

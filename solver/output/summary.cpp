@@ -139,7 +139,7 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
     const auto value = value_of(key, resolved);
     json["parameters"][key.name] = value ? to_json(*value) : Json();
   }
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 Summary read_summary(const std::filesystem::path &directory) {
