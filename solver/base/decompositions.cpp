@@ -1,4 +1,6 @@
 #include "base/decompositions.hpp"
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 namespace capsule {
 

@@ -14,4 +14,20 @@ Matrix times_blocks(const Matrix &matrix, const Matrix &blocks,
   return product;
 }
 
+Matrix lu_inverse(const Matrix &matrix) {
+  return matrix.partialPivLu().inverse();
+}
+
+RowMatrix lu_inverse(const RowMatrix &matrix) {
+  return matrix.partialPivLu().inverse();
+}
+
+Vector lu_solve(const Eigen::PartialPivLU<Matrix> &factors, const Vector &right) {
+  return factors.solve(right);
+}
+
+Matrix lu_solve(const Eigen::PartialPivLU<Matrix> &factors, const Matrix &right) {
+  return factors.solve(right);
+}
+
 } // namespace capsule

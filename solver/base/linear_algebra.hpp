@@ -2,7 +2,8 @@
 // Names for the dense arrays of the whole solver.
 //   A "position" or "velocity" of the membrane is one Vector of 2N numbers: the N axial components at the
 //   nodes of the meridian, then the N radial ones.
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <vector>
 
 namespace capsule {
@@ -17,7 +18,12 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 Matrix times_blocks(const Matrix &matrix, const Matrix &blocks,
                     const std::vector<std::vector<Eigen::Index>> &parts);
 
+// By LU with exchanged rows. Eigen's templates for it take long to compile: in linear_algebra.cpp and nowhere else.
+Matrix lu_inverse(const Matrix &matrix);
+RowMatrix lu_inverse(const RowMatrix &matrix);
+Vector lu_solve(const Eigen::PartialPivLU<Matrix> &factors, const Vector &right);
+Matrix lu_solve(const Eigen::PartialPivLU<Matrix> &factors, const Matrix &right);
+
 } // namespace capsule
 
-// Compiled once, in linear_algebra.cpp, instead of in every file that solves a system.
 extern template class Eigen::PartialPivLU<capsule::Matrix>;

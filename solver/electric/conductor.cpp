@@ -122,7 +122,7 @@ Conductor::Conductor(const Pore &pore, const FlowResolution &resolution)
   matrix.diagonal().head(circle_ ? n : n + 1).array() += 0.5;
   Vector weights(n + 1);
   weights << wall.area, 1;
-  whole_.inverse = weights.asDiagonal() * matrix.partialPivLu().inverse();
+  whole_.inverse = weights.asDiagonal() * lu_inverse(matrix);
 
   if (pore.shape == PoreShape::tube) {
     empty_resistance_ = pore.exit_x + pore.entrance_distance;

@@ -1,5 +1,6 @@
 #include "fit/least_squares.hpp"
 #include "base/failure.hpp"
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -108,7 +109,7 @@ Matrix covariance(const LeastSquares &problem, const Residuals &at) {
   const Matrix slopes = at.slopes(Eigen::all, free);
   const Vector lengths = slopes.colwise().norm();
   const Matrix scaled = slopes * lengths.cwiseInverse().asDiagonal();
-  const Matrix inverse = (scaled.transpose() * scaled).inverse();
+  const Matrix inverse = lu_inverse(Matrix(scaled.transpose() * scaled));
   Matrix result = Matrix::Zero(problem.low.size(), problem.low.size());
   result(free, free) = lengths.cwiseInverse().asDiagonal() * inverse * lengths.cwiseInverse().asDiagonal();
   return result;

@@ -15,7 +15,7 @@ NumericsFailure not_converged() {
 }
 
 Matrix inverse_of(const Matrix &system) {
-  Matrix inverse = system.partialPivLu().inverse();
+  Matrix inverse = lu_inverse(system);
   if (!inverse.allFinite())
     throw unresolved("the membrane's system is singular");
   return inverse;

@@ -78,7 +78,7 @@ Wall::Wall(const Pore &pore, const FlowResolution &resolution)
   fixed_near_ = FixedNearRule(curve_, resolution.near_tolerance);
   weights_.resize(2 * curve_.size() + 1);
   weights_ << stokeslet_factor * curve_.area, 1, stokeslet_factor * curve_.area;
-  inverse_ = weights_.asDiagonal() * matrix().partialPivLu().inverse();
+  inverse_ = weights_.asDiagonal() * lu_inverse(matrix());
   if (pore.shape == PoreShape::tube) {
     closed_form_ = poiseuille_flow;
     base_pressure_drop_ = poiseuille_pressure_drop(pore.entrance_arc);

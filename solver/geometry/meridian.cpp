@@ -173,7 +173,7 @@ Matrix spline_coefficients(const Vector &nodes, int end_derivative) {
   }
   add(nodes(0), end_derivative, nodes(1) - nodes(0));
   add(nodes(n - 1), end_derivative, nodes(n - 1) - nodes(n - 2));
-  return (conditions.partialPivLu().inverse() * scale.asDiagonal()).leftCols(n);
+  return (lu_inverse(conditions) * scale.asDiagonal()).leftCols(n);
 }
 
 // The integral of a B-spline is its support over its order.
@@ -203,8 +203,8 @@ MeridianBasis spectral_basis(int nodes) {
   set_gauss_legendre(nodes, basis);
   // Both matrices are as well conditioned as those of the cosine and sine transforms, whose nodes are close
   // by.
-  basis.even_from_nodes = waves(basis.nodes, nodes, 0, 0, 0).partialPivLu().inverse();
-  basis.odd_from_nodes = waves(basis.nodes, nodes, 1, -1, 0).partialPivLu().inverse();
+  basis.even_from_nodes = lu_inverse(waves(basis.nodes, nodes, 0, 0, 0));
+  basis.odd_from_nodes = lu_inverse(waves(basis.nodes, nodes, 1, -1, 0));
   return basis;
 }
 

@@ -125,7 +125,7 @@ void SplitBdf::factor(double share) {
 
 // By factors of another share: right for neither the stiffest nor the slowest parts, but half way between.
 Vector SplitBdf::correction(const Vector &residual, double share) const {
-  return factors_.solve(residual) * (2 / (1 + share / memory_.factored));
+  return lu_solve(factors_, residual) * (2 / (1 + share / memory_.factored));
 }
 
 Vector SplitBdf::extrapolated(std::size_t points, double time) const {

@@ -83,7 +83,7 @@ Matrix waves_from_nodes(const Vector &nodes) {
   Matrix waves(n, n);
   for (Eigen::Index k = 0; k < n; ++k)
     waves.col(k) = (static_cast<double>(k) * nodes.array()).cos();
-  return waves.inverse();
+  return lu_inverse(waves);
 }
 
 // Root of the share that the shortest third of the waves has in the sum of squares of k^2 times the

@@ -88,7 +88,7 @@ Matrix spline_coefficients(int elements, int end_derivative) {
   }
   conditions.row(n + 1).head(4) = derivative.col(0).transpose();
   conditions.row(n + 2).tail(4) = derivative.col(1).transpose();
-  return conditions.partialPivLu().inverse();
+  return lu_inverse(conditions);
 }
 
 Vector evaluate_spline(const Vector &coefficients, const ShapeTable::Values &shapes) {

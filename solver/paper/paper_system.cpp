@@ -385,7 +385,7 @@ void solve_empty_pore(PaperSystem &system) {
   write_fixed(scratch.fixed, 0, 0, equation(size - 1));
   system.fixed_right_side(size - 1) -= 1; // beta v = 1/2 * 2 of Poiseuille's flow on the axis
   const Vector solution =
-      Matrix(system.fixed_block.transpose()).partialPivLu().solve(system.fixed_right_side);
+      lu_solve(Matrix(system.fixed_block.transpose()).partialPivLu(), system.fixed_right_side);
   system.empty_pressure = solution(size - 1);
 }
 

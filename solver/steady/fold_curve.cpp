@@ -95,7 +95,7 @@ FoldCurve::Corrected FoldCurve::corrected(FoldPoint now, const Vector &row, doub
     bordered << linear.jacobian, left_vector_, null_vector_.transpose(), 0;
     const Eigen::PartialPivLU<Matrix> singular(bordered);
     const Vector unit = Vector::Unit(m + 1, m);
-    const Vector right_solution = singular.solve(unit), left_solution = singular.transpose().solve(unit);
+    const Vector right_solution = lu_solve(singular, unit), left_solution = singular.transpose().solve(unit);
     const Vector v = right_solution.head(m), w = left_solution.head(m);
     if (!factors) {
       const double h = difference / std::max(v.head(2 * n).norm() / std::sqrt(static_cast<double>(n)), 1e-3);
@@ -111,7 +111,7 @@ FoldCurve::Corrected FoldCurve::corrected(FoldPoint now, const Vector &row, doub
     }
     Vector right(m + 2);
     right << -linear.residual, -right_solution[m], aim - row.dot(joined(now));
-    const Vector change = factors->solve(right);
+    const Vector change = lu_solve(*factors, right);
     const double length = std::sqrt(weighted(change, change));
     if (!contracts(iteration, before, length) || system_->admissible_step(now.unknowns, change.head(m)) < 1)
       no_convergence();

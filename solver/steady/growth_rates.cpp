@@ -20,9 +20,8 @@ Matrix velocity_operator(const SteadySystem::Linearisation &linear, double visco
 
 Matrix small_motion(const SteadySystem::Linearisation &linear, double viscosity_ratio) {
   const Eigen::Index n2 = linear.double_layer.rows();
-  return velocity_operator(linear, viscosity_ratio)
-      .partialPivLu()
-      .solve(linear.jacobian.topLeftCorner(n2, n2));
+  const Matrix on_displacement = linear.jacobian.topLeftCorner(n2, n2);
+  return lu_solve(velocity_operator(linear, viscosity_ratio).partialPivLu(), on_displacement);
 }
 
 bool grows_more(const std::complex<double> &a, const std::complex<double> &b) {
@@ -46,7 +45,7 @@ Eigen::VectorXcd all_growth_rates(const SteadySystem::Linearisation &linear, con
                                   double viscosity_ratio) {
   const auto &[constraints, velocities] = border;
   Matrix motion = small_motion(linear, viscosity_ratio);
-  motion -= velocities * (constraints * velocities).partialPivLu().solve(constraints * motion);
+  motion -= velocities * lu_solve((constraints * velocities).partialPivLu(), Matrix(constraints * motion));
   const Matrix allowed = orthogonal_to_rows(constraints);
   Eigen::VectorXcd rates = eigenvalues(allowed.transpose() * motion * allowed);
   std::sort(rates.begin(), rates.end(), grows_more);
@@ -92,7 +91,7 @@ Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Li
   const auto inverse = [&](const Vector &rate) -> Vector {
     Vector right = Vector::Zero(size_of_all);
     right.head(n2) = on_velocity * rate;
-    return factors.solve(right).head(n2);
+    return lu_solve(factors, right).head(n2);
   };
   const Eigen::Index m = std::min(most_vectors, 2 * n2 - size_of_all);
   Matrix basis(n2, m + 1);

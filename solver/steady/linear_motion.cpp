@@ -155,7 +155,7 @@ Vector inner_shear(const NodalLayers &layers, const Frame &at_nodes, const Vecto
   normal << -at_nodes.tangent_r, at_nodes.tangent_x;
   Matrix single = layers.single;
   single += normal * normal.cwiseProduct(area.replicate(2, 1)).transpose();
-  const Vector traction = single.partialPivLu().solve(0.5 * velocity - layers.dbl * velocity);
+  const Vector traction = lu_solve(single.partialPivLu(), Vector(0.5 * velocity - layers.dbl * velocity));
   return traction.head(n).cwiseProduct(at_nodes.tangent_x) +
          traction.tail(n).cwiseProduct(at_nodes.tangent_r);
 }

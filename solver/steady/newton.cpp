@@ -23,7 +23,7 @@ Vector solve_steady(SteadySystem &system, Vector guess, std::optional<Eigen::Par
       residual = linear.residual;
       factors.emplace(linear.jacobian);
     }
-    const Vector change = factors->solve(-residual);
+    const Vector change = lu_solve(*factors, Vector(-residual));
     const double step = system.admissible_step(guess, change);
     const double length = change.head(n2).cwiseAbs().maxCoeff();
     if (!(length < farthest) || (iteration > 10 && !contracts(iteration, before, length)))
@@ -40,7 +40,7 @@ Vector solve_steady(SteadySystem &system, Vector guess, std::optional<Eigen::Par
 }
 
 Vector BroydenCorrections::next(const Vector &residual) {
-  Vector correction = factors_.solve(-residual);
+  Vector correction = lu_solve(factors_, Vector(-residual));
   for (std::size_t k = 0; k + 1 < made_.size(); ++k)
     correction += made_[k].dot(correction) / made_[k].squaredNorm() * made_[k + 1];
   if (!made_.empty())

@@ -32,7 +32,7 @@ public:
   // At the point that the corrections before have led to.
   Vector next(const Vector &residual);
   // With the matrix as it was given.
-  Vector solve(const Vector &right) const { return factors_.solve(right); }
+  Vector solve(const Vector &right) const { return lu_solve(factors_, right); }
 
 private:
   Eigen::PartialPivLU<Matrix> factors_;

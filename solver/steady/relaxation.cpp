@@ -29,7 +29,7 @@ Vector relaxed(SteadySystem &system, Vector shape, const Control &control) {
     spend(control, 1, static_cast<double>(n2) / 2);
     Matrix implicit = linear.jacobian;
     implicit.diagonal().head(n2).array() -= 1 / step;
-    const Vector change = implicit.partialPivLu().solve(-linear.residual);
+    const Vector change = lu_solve(implicit.partialPivLu(), Vector(-linear.residual));
     const double moved = change.head(n2).cwiseAbs().maxCoeff();
     if (moved <
         at_rest * std::min(step, 1.0)) // rounding errors may be left in the residual of a stiff membrane

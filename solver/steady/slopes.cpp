@@ -40,7 +40,7 @@ Matrix slopes(SteadySystem &system, const Vector &unknowns, const SteadySystem::
 
 Matrix sensitivities(SteadySystem &system, const Vector &unknowns, std::span<const std::string> keys) {
   const SteadySystem::Linearisation linear = system.linearise(unknowns);
-  return -linear.jacobian.partialPivLu().solve(slopes(system, unknowns, linear, keys));
+  return -lu_solve(linear.jacobian.partialPivLu(), slopes(system, unknowns, linear, keys));
 }
 
 } // namespace capsule
