@@ -23,6 +23,8 @@ public:
 
   const SteadyState &state() const { return state_; }
 
+  // The case that the last key varied to its end has led to.
+  const Case &reached() const { return now_; }
   // Where the branch of the last key has turned for good.
   struct Fold {
     SteadyState state;

@@ -84,17 +84,6 @@ SteadyState by_relaxation(const Case &target, const Control &control) {
   return state;
 }
 
-// Everything but the capillary number, in a flow of given strength: where the flow is not too weak, a shell gets thin
-// without buckling.
-Homotopy in_a_flow(double strength, const Case &target, const Control &control) {
-  Homotopy homotopy = from_a_stiff_sphere(target, control);
-  homotopy.vary(flow_key, strength);
-  homotopy.vary("capsule.radius", target.capsule.radius);
-  homotopy.vary("capsule.aspect_ratio", target.capsule.aspect_ratio);
-  homotopy.vary(bending_key, target.membrane.bending_ratio);
-  return homotopy;
-}
-
 // The same of one on another way, which says nothing of the case.
 NumericsFailure of_this_way(const NumericsFailure &end) {
   return ends_branch(end)
@@ -150,19 +139,32 @@ std::optional<SteadyState> by_march(const Case &input, const Control &control, c
   return {};
 }
 
-// By branches from a small stiff sphere, the last one of growing flow if the case's is stronger than the given one.
+// By branches from a small stiff sphere: first all but the capillary number, in a flow of given strength, because where the flow
+// is not too weak a shell gets thin without buckling; last the flow to the case's.
 std::optional<SteadyState> from_a_stiff_sphere_at(double strength, const Case &input, const Control &control,
                                                   Attempts &attempts) {
   const double flow = input.flow.capillary_number;
-  bool only_flow_is_left = false;
+  const bool grows = flow > strength;
+  const std::array<std::pair<const char *, double>, 5> way{
+      {{flow_key, strength},
+       {"capsule.radius", input.capsule.radius},
+       {"capsule.aspect_ratio", input.capsule.aspect_ratio},
+       {bending_key, input.membrane.bending_ratio},
+       {flow_key, flow}}};
+  std::size_t done = 0;
+  std::optional<Homotopy> homotopy;
   try {
-    Homotopy homotopy = in_a_flow(strength, input, control);
-    only_flow_is_left = flow > strength;
-    homotopy.vary(flow_key, flow);
-    return homotopy.state();
+    homotopy.emplace(from_a_stiff_sphere(input, control));
+    for (const auto &[key, value] : way) {
+      homotopy->vary(key, value);
+      ++done;
+    }
+    return homotopy->state();
   } catch (const NumericsFailure &failure) {
-    if (only_flow_is_left && ends_branch(failure))
+    if (grows && done == way.size() - 1 && ends_branch(failure))
       throw no_steady_state(failure);
+    if (grows && done == way.size() - 2 && failure.kind == failure_kind::fold)
+      throw_if_too_strong(*homotopy, input, control);
     attempts.add(fmt::format("from a small stiff sphere at {} = {:.3g}", flow_key, strength), failure);
   }
   return {};

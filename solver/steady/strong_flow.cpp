@@ -2,7 +2,6 @@
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
 #include "steady/fold_curve.hpp"
-#include "steady/homotopy.hpp"
 #include "steady/relaxation.hpp"
 #include <algorithm>
 #include <cmath>
@@ -129,6 +128,14 @@ std::optional<SteadyState> by_stiff_membrane(const Case &input, const Control &c
     return made_softer(input, stiff, homotopy->state(), softer, stronger, control);
   } while (start > weak_flow);
   return {};
+}
+
+void throw_if_too_strong(const Homotopy &homotopy, const Case &input, const Control &control) {
+  const double flow = input.flow.capillary_number, thin = input.membrane.bending_ratio;
+  const KeyPath softer(bending_key, homotopy.reached(), thin), stronger(flow_key, homotopy.reached(), flow);
+  const FollowedFold fold = follow_to(softer, homotopy.fold().part, stronger, 0, homotopy.fold(), control);
+  if (proves(fold, thin, flow))
+    throw too_strong(fold, thin);
 }
 
 } // namespace capsule

@@ -3,6 +3,7 @@
 // let loose in a weaker flow, and a branch of growing flow leads to the case's own or to a fold.
 #include "base/failure.hpp"
 #include "observe/outcome.hpp"
+#include "steady/homotopy.hpp"
 #include "steady/mesh_change.hpp"
 #include <optional>
 
@@ -22,5 +23,9 @@ NumericsFailure no_steady_state(const NumericsFailure &end);
 // fold in this flow as it gets softer; "softening" where the stiff membrane's law softens, which does not prove that the case's
 // does. Throws what it asks of `control`.
 std::optional<SteadyState> by_stiff_membrane(const Case &input, const Control &control);
+
+// As the membrane gets softer in a flow weaker than the case's, a homotopy has come to a fold: throws "fold" if, followed to
+// the case's stiffness, it lies at a flow weaker than the case's.
+void throw_if_too_strong(const Homotopy &softer, const Case &input, const Control &control);
 
 } // namespace capsule
