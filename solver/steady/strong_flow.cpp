@@ -23,9 +23,30 @@ struct FollowedFold {
   std::string text; // of the flow
 };
 
-// Follows it, from parts of both keys' ways, as far as the nodes can resolve it.
+// How far the fold may still move until the membrane is as thin as the case's, if it moves up to so many times as fast as last.
+double change_left(const FollowedFold &fold, double thin, double times) {
+  constexpr double unknown_change = 0.5; // of the flow
+  if (fold.bending == thin)
+    return 0;
+  return fold.slope == 0 ? unknown_change * fold.flow
+                         : times * std::abs(fold.slope * std::log(thin / fold.bending));
+}
+
+// A softer membrane's fold lies at a weaker flow, by less than a third in all capsules that were followed to the end
+// (paper-notes/methods.md).
+bool proves(const FollowedFold &fold, double thin, double flow) {
+  return fold.flow + change_left(fold, thin, fold.slope < 0 ? safe : 1) <= flow;
+}
+
+// Thrown where it need not be followed any farther.
+struct Proven {};
+
+// Follows it, from parts of both keys' ways, as far as the nodes can resolve it; on many nodes only until it proves that the
+// flow at the end of `stronger` is too strong.
 FollowedFold follow_to(const KeyPath &softer, double softer_part, const KeyPath &stronger,
                        double stronger_part, Homotopy::Fold fold, const Control &control) {
+  constexpr Eigen::Index many = 100;   // nodes, on which a point takes long
+  constexpr double near_enough = 0.2; // part of the fold's flow
   FollowedFold now{.flow = stronger.value(stronger_part),
                    .bending = softer.value(softer_part),
                    .text = stronger.text(stronger_part)};
@@ -34,25 +55,22 @@ FollowedFold follow_to(const KeyPath &softer, double softer_part, const KeyPath 
   try {
     follow_fold(fold.state, {fold.state.unknowns, stronger_part, softer_part},
                 fold.tangent.head(fold.state.unknowns.size()), stronger, softer, finest, control,
-                [&](const SteadyState & /*state*/, const FoldPoint &point) {
+                [&](const SteadyState &state, const FoldPoint &point) {
                   const double before = std::exchange(now.flow, stronger.value(point.part));
                   const double stiffer = std::exchange(now.bending, softer.value(point.second_part));
                   now.text = stronger.text(point.part);
                   if (now.bending < stiffer)
                     now.slope = (now.flow - before) / std::log(now.bending / stiffer);
+                  const double thin = softer.value(1);
+                  if (state.system->nodes() >= many && now.slope != 0 &&
+                      proves(now, thin, stronger.value(1)) &&
+                      change_left(now, thin, safe) < near_enough * now.flow)
+                    throw Proven{};
                 });
+  } catch (const Proven &) {
   } catch (const NumericsFailure &) { // this is how far it could be followed
   }
   return now;
-}
-
-// How far the fold may still move until the membrane is as thin as the case's, if it moves up to so many times as fast as last.
-double change_left(const FollowedFold &fold, double thin, double times) {
-  constexpr double unknown_change = 0.5; // of the flow
-  if (fold.bending == thin)
-    return 0;
-  return fold.slope == 0 ? unknown_change * fold.flow
-                         : times * std::abs(fold.slope * std::log(thin / fold.bending));
 }
 
 NumericsFailure too_strong(const FollowedFold &fold, double thin) {
@@ -63,12 +81,6 @@ NumericsFailure too_strong(const FollowedFold &fold, double thin) {
                         bending_key, fold.bending,
                         std::ceil(100 * change_left(fold, thin, safe) / fold.flow));
   return no_steady_state({failure_kind::fold, "fold " + place, "stay on the near side of it"});
-}
-
-// A softer membrane's fold lies at a weaker flow, by less than a third in all capsules that were followed to the end
-// (paper-notes/methods.md).
-bool proves(const FollowedFold &fold, double thin, double flow) {
-  return fold.flow + change_left(fold, thin, fold.slope < 0 ? safe : 1) <= flow;
 }
 
 // The state of a stiff membrane in the case's flow, as the membrane gets softer.
