@@ -45,7 +45,7 @@ struct Proven {};
 // flow at the end of `stronger` is too strong.
 FollowedFold follow_to(const KeyPath &softer, double softer_part, const KeyPath &stronger,
                        double stronger_part, Homotopy::Fold fold, const Control &control) {
-  constexpr Eigen::Index many = 100;   // nodes, on which a point takes long
+  constexpr Eigen::Index many = 100;  // nodes, on which a point takes long
   constexpr double near_enough = 0.2; // part of the fold's flow
   FollowedFold now{.flow = stronger.value(stronger_part),
                    .bending = softer.value(softer_part),
