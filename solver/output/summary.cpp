@@ -159,7 +159,7 @@ Summary read_summary(const std::filesystem::path &directory) {
     if (json->contains("along")) {
       summary.along = text("along");
       for (const Json &fold : json->at("folds"))
-        summary.folds.push_back(fold.at(summary.along));
+        summary.folds.push_back({fold.at(summary.along), fold.at("max_stretch")});
     }
     for (const auto &[name, value] : json->items())
       if (value.is_number())

@@ -13,6 +13,10 @@ struct Outcome;
 
 std::string summary_text(const Case &physics, const Outcome &outcome, const Effort &effort);
 
+// The key's value on a branch, and the membrane's largest stretch.
+struct FoldPlace {
+  double value = 0, stretch = 0;
+};
 // Read back. Quantities that do not apply are absent.
 struct Summary {
   std::string status;
@@ -20,8 +24,8 @@ struct Summary {
   std::string message;
   std::map<std::string, double> quantities;
   std::map<std::string, double> error_estimate;
-  std::string along = {};         // of a branch: the key that varies
-  std::vector<double> folds = {}; // its values there
+  std::string along = {}; // of a branch: the key that varies
+  std::vector<FoldPlace> folds = {};
 };
 // Throws FileError.
 Summary read_summary(const std::filesystem::path &directory);

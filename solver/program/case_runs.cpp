@@ -89,8 +89,9 @@ std::string report_in_si(const RunResult &result) {
     return "";
   if (!summary.along.empty()) { // along most keys the scales change
     std::string folds;
-    for (const double fold : summary.along == flow_key ? summary.folds : std::vector<double>())
-      folds += fmt::format("\n  fold at a flow rate of {}", flow_rate_text(result.input.physics, fold));
+    for (const FoldPlace &fold : summary.along == flow_key ? summary.folds : std::vector<FoldPlace>())
+      folds += fmt::format("\n  fold at a flow rate of {}, stretch {:.3g}",
+                           flow_rate_text(result.input.physics, fold.value), fold.stretch);
     return folds;
   }
   const Scales scales = physical_scales(result.input.physics);
@@ -116,8 +117,8 @@ std::string report(const RunResult &result, const std::string &name, RunEnd end)
   };
   for (const auto &[label, quantity] : told_quantities(summary))
     add(label, quantity);
-  for (const double fold : summary.folds)
-    text += fmt::format("  fold at {:.6g}", fold);
+  for (const FoldPlace &fold : summary.folds)
+    text += fmt::format("  fold at {:.6g}", fold.value);
   if (!summary.along.empty() && summary.folds.empty() && summary.failure.empty())
     text += "  no fold on the way";
   add("CPU seconds", "cpu_seconds", 3);
@@ -263,6 +264,8 @@ struct CaseRuns {
       const Progress &progress = shared.progress(i);
       if (progress.steps > 0)
         line.update(input.runs[i].name, input.runs[i].physics, progress.time, progress.x_g, progress.steps);
+      else if (progress.work > 0 && options.task.name.starts_with("branch"))
+        line.update_branch(input.runs[i].name);
       else if (progress.work > 0)
         line.update_search(input.runs[i].name, progress.work / most_work_of_search);
     }

@@ -65,6 +65,19 @@ void ProgressLine::update_search(const std::string &run, double part) {
   show_longest();
 }
 
+void ProgressLine::update_branch(const std::string &run) {
+  if (!shown)
+    return;
+  const Clock::time_point now = Clock::now();
+  Run &this_run = runs.try_emplace(run, Run{now, 0, 0, ""}).first->second;
+  const double seconds = std::chrono::duration<double>(now - this_run.began).count();
+  if (seconds < 1)
+    return;
+  this_run.text = fmt::format("{}{}following a branch, for {} so far", run, run.empty() ? "" : "  ",
+                              duration_text(seconds));
+  show_longest();
+}
+
 void ProgressLine::show_longest() {
   const Clock::time_point now = Clock::now();
   if (now - last_shown < std::chrono::milliseconds(200))

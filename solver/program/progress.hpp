@@ -23,6 +23,8 @@ public:
   void update(const std::string &run, const Case &physics, double time, double x_g, long steps);
   // The same of a search for a steady state, which has done this part of what it may cost; most end long before.
   void update_search(const std::string &run, double part);
+  // The same of a branch, whose end nobody knows.
+  void update_branch(const std::string &run);
   void finish(const std::string &run);
   // Prints a line that stays, on standard output.
   void print(const std::string &line);

@@ -110,9 +110,12 @@ public:
     part_ = branch_->point().parameter;
     if (part_ >= 1 || part_ <= 0) {
       outcome().branch.push_back(record(branch_->at_parameter(part_ >= 1 ? 1 : 0), true));
-      outcome().status = Status::reached;
       if (part_ <= 0)
-        outcome().message = fmt::format("the branch turns back and does not reach {}", path_.text(1));
+        throw NumericsFailure(
+            failure_kind::fold,
+            fmt::format("the branch turns back to where it began and does not reach {}", path_.text(1)),
+            "a thin shell may buckle: try another value to begin with, or a larger membrane.bending_ratio");
+      outcome().status = Status::reached;
       return true;
     }
     // A stretch alone is no proof: steady states near a fold may reach it. Behind the fold it grows without end.
