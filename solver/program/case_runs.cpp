@@ -90,8 +90,7 @@ std::string report_in_si(const RunResult &result) {
   if (!summary.along.empty()) { // along most keys the scales change
     std::string folds;
     for (const FoldPlace &fold : summary.along == flow_key ? summary.folds : std::vector<FoldPlace>())
-      folds += fmt::format("\n  fold at a flow rate of {}, stretch {:.3g}",
-                           flow_rate_text(result.input.physics, fold.value), fold.stretch);
+      folds += fmt::format("\n  fold at a flow rate of {}", flow_rate_text(result.input.physics, fold.value));
     return folds;
   }
   const Scales scales = physical_scales(result.input.physics);
@@ -117,8 +116,8 @@ std::string report(const RunResult &result, const std::string &name, RunEnd end)
   };
   for (const auto &[label, quantity] : told_quantities(summary))
     add(label, quantity);
-  for (const FoldPlace &fold : summary.folds)
-    text += fmt::format("  fold at {:.6g}", fold.value);
+  for (const auto &[value, stretch] : summary.folds)
+    text += fmt::format("  fold at {:.6g}, stretch {:.3g}", value, stretch);
   if (!summary.along.empty() && summary.folds.empty() && summary.failure.empty())
     text += "  no fold on the way";
   add("CPU seconds", "cpu_seconds", 3);
@@ -262,12 +261,11 @@ struct CaseRuns {
   void show_progress() {
     for (std::size_t i = 0; i < results.size(); ++i) {
       const Progress &progress = shared.progress(i);
+      const RunInput &run = input.runs[i];
       if (progress.steps > 0)
-        line.update(input.runs[i].name, input.runs[i].physics, progress.time, progress.x_g, progress.steps);
-      else if (progress.work > 0 && options.task.name.starts_with("branch"))
-        line.update_branch(input.runs[i].name);
+        line.update(run.name, run.physics, progress.time, progress.x_g, progress.steps);
       else if (progress.work > 0)
-        line.update_search(input.runs[i].name, progress.work / most_work_of_search);
+        line.update_search(run.name, options.task.name, progress.work / most_work_of_search);
     }
   }
 

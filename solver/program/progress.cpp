@@ -54,27 +54,17 @@ void ProgressLine::update(const std::string &run, const Case &physics, double ti
   show_longest();
 }
 
-void ProgressLine::update_search(const std::string &run, double part) {
+void ProgressLine::update_search(const std::string &run, const std::string &task, double part) {
   if (!shown)
     return;
   Run *this_run = longer_than_a_second(run, std::min(part, 1.0));
   if (this_run == nullptr)
     return;
-  this_run->text = fmt::format("{}{}searching for a steady state, for {} more at most", run,
-                               run.empty() ? "" : "  ", duration_text(this_run->seconds_left));
-  show_longest();
-}
-
-void ProgressLine::update_branch(const std::string &run) {
-  if (!shown)
-    return;
-  const Clock::time_point now = Clock::now();
-  Run &this_run = runs.try_emplace(run, Run{now, 0, 0, ""}).first->second;
-  const double seconds = std::chrono::duration<double>(now - this_run.began).count();
-  if (seconds < 1)
-    return;
-  this_run.text = fmt::format("{}{}following a branch, for {} so far", run, run.empty() ? "" : "  ",
-                              duration_text(seconds));
+  const std::string text = task.starts_with("branch")
+                               ? "following a branch"
+                               : fmt::format("searching for a steady state, for {} more at most",
+                                             duration_text(this_run->seconds_left));
+  this_run->text = fmt::format("{}{}{}", run, run.empty() ? "" : "  ", text);
   show_longest();
 }
 

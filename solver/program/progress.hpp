@@ -21,10 +21,9 @@ public:
 
   // Shows the run that will take longest. Nothing is shown in a run's first second.
   void update(const std::string &run, const Case &physics, double time, double x_g, long steps);
-  // The same of a search for a steady state, which has done this part of what it may cost; most end long before.
-  void update_search(const std::string &run, double part);
-  // The same of a branch, whose end nobody knows.
-  void update_branch(const std::string &run);
+  // The same of a search for a steady state, which has done this part of what it may cost; most end long before. Of a branch
+  // nobody knows the end.
+  void update_search(const std::string &run, const std::string &task, double part);
   void finish(const std::string &run);
   // Prints a line that stays, on standard output.
   void print(const std::string &line);
