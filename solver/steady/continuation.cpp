@@ -146,7 +146,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
       before = length;
     }
     spend(control_, 1, static_cast<double>(system_->nodes()));
-    slopes.emplace(system_->linearise(now.unknowns), Vector());
+    slopes = Slopes{system_->linearise(now.unknowns), {}};
     slopes->in_parameter = slope_in_parameter(now, slopes->linear);
     start_corrections();
     const Vector change = correction(slopes->linear.residual);
