@@ -2,6 +2,7 @@
 // disturbance of the shape dies away, by bisection, against the eigenvalues of the linearised motion; what the program
 // says of a longer step; and how long the steps of the default are.
 #include "study.hpp"
+#include "base/decompositions.hpp"
 #include "base/failure.hpp"
 #include "law/skalak.hpp"
 #include "motion/dynamics.hpp"
@@ -72,7 +73,7 @@ std::vector<Setting> settings() {
 }
 
 double fastest(const Matrix &jacobian) {
-  return jacobian.eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(jacobian).cwiseAbs().maxCoeff();
 }
 
 // The whole derivative of the velocity, that of the mobility included, by central differences.

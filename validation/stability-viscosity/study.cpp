@@ -2,11 +2,13 @@
 // eigenvalues against what is known exactly, the corrections that one shape's inverse leaves to the next, short
 // entrances, and the pressure drop of one shape that no longer changes.
 #include "study.hpp"
+#include "base/decompositions.hpp"
 #include "membrane/load.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
 #include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"
+#include <Eigen/SVD>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -54,7 +56,7 @@ Condition condition(const Flow &flow, const Shape &shape, const Vector &position
   const Matrix change =
       Matrix::Identity(own.rows(), own.cols()) - own.partialPivLu().solve(earlier); // I - A A_before^(-1)
   return {singular.singularValues()[0] / singular.singularValues()[own.rows() - 1],
-          1 / own.eigenvalues().cwiseAbs().maxCoeff(), change.eigenvalues().cwiseAbs().maxCoeff()};
+          1 / eigenvalues(own).cwiseAbs().maxCoeff(), eigenvalues(change).cwiseAbs().maxCoeff()};
 }
 
 // Rigid motion of the liquid inside has no stress: eigenvalue 1. A flow through the membrane has no pressure to
