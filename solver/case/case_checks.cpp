@@ -146,7 +146,8 @@ struct Checks {
           c.pore.shape == PoreShape::two_mouths
               ? fmt::format("that is x = {}: pore.exit_x and a third of pore.entrance_distance, at most 10",
                             number_text(end))
-              : fmt::format("pore.exit_x is {}", number_text(end)));
+              : fmt::format("pore.exit_x is {}: give an until.x_g below {:.4g}", number_text(end),
+                            end - extent(c.capsule).half_length));
     const double last = c.until.x_g.value_or(end);
     if (c.output.transit_from && c.output.transit_to && *c.output.transit_from >= *c.output.transit_to)
       chosen.complain(
@@ -246,7 +247,10 @@ struct Checks {
     for (const std::string &unknown : fit.unknowns) {
       if (std::ranges::find(parameters, unknown) == parameters.end())
         chosen.complain({"fit.unknowns"}, fmt::format("'{}' is nothing that a fit can find", unknown),
-                        meant(unknown, parameters));
+                        unknown.starts_with("physical.")
+                            ? "list dimensionless keys: from flow.capillary_number follows the modulus, from "
+                              "capsule.radius the radius"
+                            : meant(unknown, parameters));
       else if (std::ranges::count(fit.unknowns, unknown) > 1)
         chosen.complain({"fit.unknowns"}, fmt::format("'{}' stands twice", unknown));
       else if (!is_of_a_candidate(*find_key(unknown)))
