@@ -34,7 +34,8 @@ double crossing(double place, double low, double high, const Meridian &meridian)
 
 // Panels between places, as long as n nodes need them; at least two.
 Panels panels_between(const std::vector<double> &ends, Eigen::Index n) {
-  const double longest = (ends.back() - ends.front()) / static_cast<double>(n / 10 + 1);
+  const Eigen::Index fewest = n / 10 + 1;
+  const double longest = (ends.back() - ends.front()) / static_cast<double>(fewest);
   std::vector<double> edges{ends.front()};
   for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
     const double length = ends[k + 1] - ends[k];
