@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char *flow_rate_key = "physical.flow_rate";
 
-constexpr Branch::Steps steps{.first = 0.02, .largest = 0.1, .tolerance = 1e-9};
+constexpr Branch::Steps steps{.first = 0.02, .largest = 0.1, .tolerance = 1e-9, .largest_miss = 0.2};
 constexpr double accuracy_of_folds = 1e-6;
 constexpr int most_nodes_of_a_branch = 300;
 constexpr int most_points = 500;

@@ -177,7 +177,6 @@ Vector Branch::way_to_guess(double step) const {
 
 void Branch::advance() {
   constexpr double straight = 0.85; // cosine between neighbouring tangents
-  constexpr double beside = 0.2;    // of a step, from its guess: the point may lie on another branch
   balance();
   take_step(step_, smallest_step, [&] {
     const Vector guess = way_to_guess(step_);
@@ -185,7 +184,8 @@ void Branch::advance() {
     Vector miss = -guess;
     miss.head(point_.unknowns.size()) += next.point.unknowns - point_.unknowns;
     miss[point_.unknowns.size()] += next.point.parameter - point_.parameter;
-    if (!(weighted(next.tangent, tangent_) > straight) || std::sqrt(weighted(miss, miss)) > beside * step_)
+    if (!(weighted(next.tangent, tangent_) > straight) ||
+        std::sqrt(weighted(miss, miss)) > steps_.largest_miss * step_)
       return false;
     oldest_ = before_;
     before_ = point_;

@@ -6,6 +6,7 @@
 #include "case/key_path.hpp"
 #include "observe/outcome.hpp"
 #include "steady/steady_system.hpp"
+#include <limits>
 #include <optional>
 
 namespace capsule {
@@ -23,11 +24,13 @@ bool poorly_resolved(const SteadySystem &system, const Vector &unknowns,
 
 class Branch {
 public:
-  // Lengths along the branch; how far, in displacement, the next correction of a point would move it; and the unresolved part
-  // of a shape above which it wants a finer mesh.
+  // Lengths along the branch; how far, in displacement, the next correction of a point would move it; the unresolved part of a
+  // shape above which it wants a finer mesh; and how far, in steps, a point may lie from its guess. Beyond a fifth it may lie
+  // on another branch, which a way to some state need not care for.
   struct Steps {
     double first, largest, tolerance;
     double largest_unresolved_part = fine_tail;
+    double largest_miss = std::numeric_limits<double>::infinity();
   };
   // Whether the parameter grows along the branch.
   enum class Trend { falls, grows };
