@@ -215,9 +215,9 @@ bool cost_against_dilatation(const std::string &directory, unsigned jobs) {
     for (std::size_t i = 0; i < dilatations.size(); ++i)
       off_the_steady = std::max(off_the_steady, std::abs(at(i).pressure_drop / at(i).settled - 1));
     area_change = std::max(area_change, at(3).area_change);
-    for (const double order : {std::log10(at(1).area_change / at(3).area_change) / 2,
-                               std::log10((at(2).pressure_drop - at(1).pressure_drop) /
-                                          (at(3).pressure_drop - at(2).pressure_drop))}) {
+    for (const double order :
+         {std::log10(at(1).area_change / at(3).area_change) / 2,
+          std::log10((at(2).settled - at(1).settled) / (at(3).settled - at(2).settled))}) {
       least_order = std::min(least_order, order);
       largest_order = std::max(largest_order, order);
     }
