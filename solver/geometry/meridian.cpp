@@ -57,16 +57,22 @@ void set_gauss_legendre(int n, MeridianBasis &basis) {
 
 // cos(k zeta) and sin(k zeta) of some points: each wave follows from the one before by a turn by zeta. The error of k turns
 // is that of rounding k zeta.
-constexpr Eigen::Index together = 8;
-using Block = Eigen::Array<double, together, 1>;
+template <class Array>
 struct Turning {
-  Block turn_c, turn_s, c = Block::Ones(), s = Block::Zero();
+  Array turn_c, turn_s, c, s, turned;
+  explicit Turning(const Array &zeta)
+      : turn_c(zeta.cos()), turn_s(zeta.sin()), c(Array::Ones(zeta.size())), s(Array::Zero(zeta.size())),
+        turned(zeta.size()) {}
   void turn() {
-    const Block turned = c * turn_c - s * turn_s;
+    turned = c * turn_c - s * turn_s;
     s = s * turn_c + c * turn_s;
     c = turned;
   }
 };
+
+// Eight points at a time: sums of their waves stay in registers.
+constexpr Eigen::Index together = 8;
+using Block = Eigen::Array<double, together, 1>;
 
 // Applies `use(first point, number of them, their waves with k = 0)`.
 template <class Use>
@@ -75,20 +81,19 @@ void for_each_block(const Vector &points, const Use &use) {
     const Eigen::Index size = std::min(together, points.size() - begin);
     Block zeta = Block::Zero();
     zeta.head(size) = points.segment(begin, size);
-    use(begin, size, Turning{.turn_c = zeta.cos(), .turn_s = zeta.sin()});
+    use(begin, size, Turning<Block>(zeta));
   }
 }
 
 // cos(k zeta), or sin(k zeta), k = first, first + 1 ...
 Matrix waves(bool cosine, const Vector &points, Eigen::Index first, Eigen::Index count) {
   Matrix values(points.size(), count);
-  for_each_block(points, [&](Eigen::Index begin, Eigen::Index size, Turning turning) {
-    for (Eigen::Index k = 0; k < first + count; ++k) {
-      if (k >= first)
-        values.col(k - first).segment(begin, size) = (cosine ? turning.c : turning.s).head(size);
-      turning.turn();
-    }
-  });
+  Turning<Eigen::ArrayXd> turning(points.array());
+  for (Eigen::Index k = 0; k < first + count; ++k) {
+    if (k >= first)
+      values.col(k - first) = cosine ? turning.c : turning.s;
+    turning.turn();
+  }
   return values;
 }
 
@@ -250,7 +255,7 @@ Meridian::Points Meridian::at(const Vector &zeta) const {
   }
   const Eigen::Index n = basis_->size();
   Points points{Vector(zeta.size()), Vector(zeta.size()), Vector(zeta.size()), Vector(zeta.size())};
-  for_each_block(zeta, [&](Eigen::Index begin, Eigen::Index size, Turning turning) {
+  for_each_block(zeta, [&](Eigen::Index begin, Eigen::Index size, Turning<Block> turning) {
     Block x = Block::Constant(x_[0]), x_1 = Block::Zero(), x_2 = Block::Zero(), r = Block::Zero();
     for (Eigen::Index k = 1; k <= n; ++k) {
       turning.turn();
