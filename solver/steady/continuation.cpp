@@ -23,6 +23,13 @@ double step_factor(double contraction) {
   return contraction == 0 ? 1.4 : std::clamp(std::cbrt(intended / contraction), 0.5, 2.0);
 }
 
+// Changes of the unknowns, then of the parameter.
+Vector way(const BranchPoint &from, const BranchPoint &to) {
+  Vector changes(to.unknowns.size() + 1);
+  changes << to.unknowns - from.unknowns, to.parameter - from.parameter;
+  return changes;
+}
+
 } // namespace
 
 bool poorly_resolved(const SteadySystem &system, const Vector &unknowns, double largest_unresolved_part) {
@@ -104,9 +111,8 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     corrections.emplace(bordered.partialPivLu());
   };
   const auto correction = [&](const Vector &residual) {
-    Vector way(m + 1), all(m + 1);
-    way << now.unknowns - from.unknowns, now.parameter - from.parameter;
-    all << residual, row.dot(way) - step;
+    Vector all(m + 1);
+    all << residual, row.dot(way(from, now)) - step;
     return corrections->next(all);
   };
   const auto place = [&] {
@@ -166,8 +172,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
 Vector Branch::way_to_guess(double step) const {
   if (points_ == 1)
     return step * tangent_;
-  Vector chord(tangent_.size());
-  chord << point_.unknowns - before_.unknowns, point_.parameter - before_.parameter;
+  const Vector chord = way(before_, point_);
   const double length = weighted(chord, tangent_);
   const Vector earlier = tangent_before_ / weighted(tangent_before_, tangent_);
   const Vector by_points = (tangent_ - chord / length) / length, by_tangents = (tangent_ - earlier) / length;
@@ -181,9 +186,7 @@ void Branch::advance() {
   take_step(step_, smallest_step, [&] {
     const Vector guess = way_to_guess(step_);
     Corrected next = correct(point_, tangent_, step_, steps_.tolerance, guess, slopes_);
-    Vector miss = -guess;
-    miss.head(point_.unknowns.size()) += next.point.unknowns - point_.unknowns;
-    miss[point_.unknowns.size()] += next.point.parameter - point_.parameter;
+    const Vector miss = way(point_, next.point) - guess;
     if (!(weighted(next.tangent, tangent_) > straight) ||
         std::sqrt(weighted(miss, miss)) > steps_.largest_miss * step_)
       return false;
@@ -205,9 +208,7 @@ void Branch::advance() {
 BranchPoint Branch::at_parameter(double parameter) const {
   const Eigen::Index m = point_.unknowns.size();
   const auto beyond = [&](double step) { return point_.parameter + way_to_guess(step)[m] - parameter; };
-  Vector chord(m + 1);
-  chord << point_.unknowns - before_.unknowns, point_.parameter - before_.parameter;
-  const double first = -weighted(chord, tangent_);
+  const double first = -weighted(way(before_, point_), tangent_);
   std::uintmax_t evaluations = 30;
   const auto found = boost::math::tools::toms748_solve(
       beyond, first, 0.0, before_.parameter - parameter, point_.parameter - parameter,
@@ -247,17 +248,13 @@ bool Branch::tangent_has_turned() const {
 }
 
 double Branch::along_tangent_before(const BranchPoint &at) const {
-  Vector chord(tangent_before_.size());
-  chord << at.unknowns - before_.unknowns, at.parameter - before_.parameter;
-  return weighted(chord, tangent_before_);
+  return weighted(way(before_, at), tangent_before_);
 }
 
 // The curvature with which a parabola from the point before, along its tangent there, ends at a given point.
 Vector Branch::bend_towards(const BranchPoint &end) const {
-  Vector chord(tangent_before_.size());
-  chord << end.unknowns - before_.unknowns, end.parameter - before_.parameter;
   const double length = along_tangent_before(end);
-  return 2 / (length * length) * (chord - length * tangent_before_);
+  return 2 / (length * length) * (way(before_, end) - length * tangent_before_);
 }
 
 // The point where the parameter's slope along the arc vanishes. The slope is that of the tangents, or, if these do not

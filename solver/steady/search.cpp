@@ -163,7 +163,7 @@ std::optional<SteadyState> from_a_stiff_sphere_at(double strength, const Case &i
   } catch (const NumericsFailure &failure) {
     if (grows && done == way.size() - 1 && ends_branch(failure))
       throw no_steady_state(failure);
-    if (grows && done == way.size() - 2 && failure.kind == failure_kind::fold)
+    if (grows && way[done].first == bending_key && failure.kind == failure_kind::fold)
       throw_if_too_strong(*homotopy, input, control);
     attempts.add(fmt::format("from a small stiff sphere at {} = {:.3g}", flow_key, strength), failure);
   }
