@@ -44,8 +44,12 @@ double natural_size(const std::string &key, double value) {
 KeyPath::KeyPath(std::string key, const Case &from, double to)
     : key_(std::move(key)), start_(from), from_(number(key_, from)), to_(to) {}
 
+double KeyPath::even(double value) const {
+  return is_straight() ? value : std::pow(value, 1 / power);
+}
+
 double KeyPath::root(double part) const {
-  return std::max((1 - part) * std::pow(from_, 1 / power) + part * std::pow(to_, 1 / power), 0.0);
+  return std::max((1 - part) * even(from_) + part * even(to_), 0.0);
 }
 
 double KeyPath::value(double part) const {
@@ -55,14 +59,11 @@ double KeyPath::value(double part) const {
 }
 
 double KeyPath::part(double value) const {
-  const auto even = [&](double v) { return is_straight() ? v : std::pow(v, 1 / power); };
   return (even(value) - even(from_)) / (even(to_) - even(from_));
 }
 
 double KeyPath::slope(double part) const {
-  return is_straight() ? to_ - from_
-                       : power * std::pow(root(part), power - 1) *
-                             (std::pow(to_, 1 / power) - std::pow(from_, 1 / power));
+  return is_straight() ? to_ - from_ : power * std::pow(root(part), power - 1) * (even(to_) - even(from_));
 }
 
 Case KeyPath::at(double part) const {

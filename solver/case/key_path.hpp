@@ -35,6 +35,7 @@ public:
 
 private:
   bool is_straight() const { return from_ < 0 || to_ < 0 || natural_size(key_, 0) > 0; }
+  double even(double value) const; // what changes evenly: the value or its eighth root
   double root(double part) const;
 
   std::string key_;
