@@ -3,7 +3,8 @@
 //   inherit = "file.toml"             values of another file, relative to this one, that this file overrides
 //   inherit = ["a", "b"]              the runs of the first file and those of the second, and so on
 //   sweep."flow.viscosity_ratio" = []  one run per value; several sweeps make every combination
-// A plain value overrides an inherited sweep of the same key and the other way round; --set overrides both.
+// A plain value overrides an inherited sweep of the same key and the other way round; --set overrides both. A plain value of
+// --set leaves one run of a sweep, which keeps its name.
 // Every error of all files is collected and thrown as one InputError (located_text.hpp). The way of the data: toml_text,
 // case_reader (what the keys are given), case_file (the runs), case_checks (what values must be to each other).
 #include "case/case.hpp"

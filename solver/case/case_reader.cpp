@@ -189,11 +189,12 @@ struct Flattener {
   }
 };
 
-void collect(CaseReader &reader, std::size_t source, const toml::table &root) {
+// What --set gives instead of a swept key's values is a sweep of one: its run goes by its name among those of the case.
+void collect(CaseReader &reader, std::size_t source, const toml::table &root, bool by_set = false) {
   Flattener flattener{reader, source, {}};
   flattener.table(root, "", false);
   std::ranges::sort(flattener.found, {}, &Assignment::place);
-  for (const Assignment &assignment : flattener.found) {
+  for (Assignment &assignment : flattener.found) {
     const auto same = std::ranges::find(reader.assignments, assignment.key, &Assignment::key);
     if (same != reader.assignments.end()) {
       if (same->place.source == source)
@@ -201,6 +202,11 @@ void collect(CaseReader &reader, std::size_t source, const toml::table &root) {
             assignment.place,
             fmt::format("'{}' {}", assignment.key->name,
                         same->sweep == assignment.sweep ? "stands here again" : "is both set and swept"));
+      if (by_set && same->sweep) {
+        assignment.sweep = true;
+        *same = assignment; // in its place in the names of runs
+        continue;
+      }
       reader.assignments.erase(same);
     }
     reader.assignments.push_back(assignment);

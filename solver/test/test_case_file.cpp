@@ -130,9 +130,15 @@ BOOST_AUTO_TEST_CASE(sweeps_make_every_combination) {
   BOOST_TEST(input.runs[5].physics.membrane.law.is(neo_hookean));
   // 1 and 1.0 are the same value.
   BOOST_TEST(read_case(file, {"sweep.'flow.viscosity_ratio' = [1.0]"}).runs.at(0).name ==
-             "law=skalak,viscosity_ratio=1");
-  // A plain value replaces the sweep.
-  BOOST_TEST(read_case(file, {"flow.viscosity_ratio=5", "membrane.law=skalak"}).runs.at(0).name == "");
+             "viscosity_ratio=1,law=skalak");
+  // A plain value of --set leaves one run, by its name; that of a file that inherits the sweep takes it away.
+  const CaseInput one = read_case(file, {"flow.viscosity_ratio=5", "membrane.law=skalak"});
+  BOOST_REQUIRE(one.runs.size() == 1u);
+  BOOST_TEST(one.runs[0].name == "viscosity_ratio=5,law=skalak");
+  BOOST_TEST(one.runs[0].physics.flow.viscosity_ratio == 5);
+  directory.write("b.toml", "inherit = 'a.toml'\nflow.viscosity_ratio = 5\nmembrane.law = 'skalak'\n");
+  BOOST_TEST(read_case(directory.path / "b.toml").runs.at(0).name == "");
+  BOOST_TEST(read_case(directory.path / "b.toml", {"flow.viscosity_ratio=2"}).runs.at(0).name == "");
 }
 
 BOOST_AUTO_TEST_CASE(names_of_runs_are_unambiguous) {
