@@ -17,8 +17,8 @@ shear_modulus = "20 uN/m"
 flow_rate = "0.1 nl/s"
 TOML
 ends 0 run case.toml --out run
-grep -Eq '^  in SI units:  t [0-9.e-]+ s  x_g [0-9.e-]+ m  v_g [0-9.e-]+ m/s  pressure drop [0-9.e-]+ Pa$' log ||
-  fail 'the end in SI units is not told'
+grep -Eq "^  in the case's units:  t [0-9.e-]+ s  x_g [0-9.-]+ um  v_g [0-9.]+ um/s  pressure drop [0-9.]+ Pa$" log ||
+  fail "the end in the case's units is not told"
 ends 0 steady case.toml --out steady
 sed '/physical/,$d' case.toml >branch.toml
 printf '[capsule]\nradius = 0.5\n[flow]\ncapillary_number = 0.05\n' >>branch.toml
@@ -26,8 +26,10 @@ ends 0 branch branch.toml --along flow.capillary_number --to 0.051 --out branch
 ends 0 branch case.toml --along physical.flow_rate --to '0.11 nl/s' --out units
 ends 0 steady branch.toml --set flow.period=2 --set output.resistance=false --out train
 ends 0 run branch.toml --set until.time=0.1 --set "capsule.start_x=[-2, -4]" --set output.resistance=false --out pair
+grep -Eq '  x_g -[0-9.]+  v_g [0-9.]+  x_g#2 -[0-9.]+  v_g#2 [0-9.]+  pressure drop' log || fail 'the second capsule is not told'
 sed 's/until.time = 0.1/pore.shape = "two-mouths"/' case.toml >transit.toml
 ends 0 run transit.toml --set pore.exit_x=2 --set until.x_g=3.5 --out transit
+grep -Eq '  transit time [0-9.]+  pulse height [0-9.]+  CPU' log || fail 'the transit is not told'
 # The start is written once, however its place is rounded, if a profile is asked for there.
 for start in -1.3 -1.4 -1.5 -1.6 -1.7; do
   ends 0 run case.toml --set until.time=1e-3 --set capsule.start_x=$start --set "output.profiles_at_x_g=[$start]" --out start

@@ -153,10 +153,31 @@ double driven_tube_length(const Case &physics) {
                    : physics.pore.exit_x + tube_before_mouth(physics.pore);
 }
 
+TypedUnit own_unit(const Case &physics, const Dimension &of) {
+  const auto &p = physics.physical;
+  const auto along_the_tube = [&](const char *per) {
+    const TypedUnit length = typed_unit(p.tube_radius, dimension::length);
+    return TypedUnit{length.name + per, length.si};
+  };
+  if (of == dimension::length)
+    return along_the_tube("");
+  if (of == dimension::velocity)
+    return along_the_tube("/s");
+  if (of == dimension::flow_rate)
+    return typed_unit(p.flow_rate, of);
+  if (of == dimension::pressure)
+    return typed_unit(p.pressure, of);
+  if (of == dimension::tension)
+    return typed_unit(p.shear_modulus.si > 0 ? p.shear_modulus : p.young_modulus, of);
+  return {unit_text(of), 1};
+}
+
 std::string flow_rate_text(const Case &physics) {
+  const TypedUnit unit = own_unit(physics, dimension::flow_rate);
   const Quantity &pressure = physics.physical.pressure;
-  return fmt::format("Q = {:.6g} m3/s without a capsule{}", flow_rate(physics),
-                     pressure.si > 0 ? ", which " + quantity_text(pressure, dimension::pressure) + " drives"
+  return fmt::format("Q = {:.6g} {}{}", flow_rate(physics) / unit.si, unit.name,
+                     pressure.si > 0 ? " without a capsule, which " +
+                                           quantity_text(pressure, dimension::pressure) + " drives"
                                      : "");
 }
 
@@ -166,11 +187,8 @@ std::string flow_rate_text(const Case &physics, double capillary_number) {
   if (shear == 0)
     return "";
   const double si = capillary_number * pi * p.tube_radius.si * p.tube_radius.si * shear / p.viscosity.si;
-  const Quantity &own = p.flow_rate;
-  char *unit = nullptr;
-  const double typed = own.written.empty() ? 0 : std::strtod(own.written.c_str(), &unit);
-  return typed > 0 ? fmt::format("{:.4g} {}", si * typed / own.si, trimmed(unit))
-                   : fmt::format("{:.4g} {}", si, unit_text(dimension::flow_rate));
+  const TypedUnit unit = own_unit(physics, dimension::flow_rate);
+  return fmt::format("{:.4g} {}", si / unit.si, unit.name);
 }
 
 double reynolds_number(const Case &physics) {

@@ -34,7 +34,10 @@ std::vector<Derived> derived_values(const Case &physics, bool of_a_fit = false);
 
 // Of the tube that a given pressure drives the liquid through, in tube radii.
 double driven_tube_length(const Case &physics);
-// "Q = 1.3e-12 m3/s without a capsule, which 500 Pa drives".
+// The unit in which a case is told of results: that in which it gives its own flow rate, pressure and modulus, and the
+// length and velocity that go with its tube's radius; of everything else the SI unit.
+TypedUnit own_unit(const Case &physics, const Dimension &of);
+// "Q = 0.1 nl/s", or "Q = 1.3e-12 m3/s without a capsule, which 500 Pa drives".
 std::string flow_rate_text(const Case &physics);
 // The flow rate at any capillary number, in the unit in which the case gives its own: "0.253 nl/s". Empty where the modulus
 // is unknown: without physical units, and in a fit.

@@ -360,6 +360,12 @@ std::string unit_text(const Dimension &of) {
       .substr(1);
 }
 
+TypedUnit typed_unit(const Quantity &quantity, const Dimension &of) {
+  char *unit = nullptr;
+  const double typed = quantity.written.empty() ? 0 : std::strtod(quantity.written.c_str(), &unit);
+  return typed > 0 ? TypedUnit{trimmed(unit), quantity.si / typed} : TypedUnit{unit_text(of), 1};
+}
+
 std::string quantity_text(const Quantity &quantity, const Dimension &of) {
   return quantity.written.empty() ? fmt::format("{} {}", number_text(quantity.si), unit_text(of))
                                   : quantity.written;

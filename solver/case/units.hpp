@@ -35,6 +35,13 @@ struct NoQuantity {
 };
 std::variant<Quantity, NoQuantity> read_quantity(const std::string &typed, const Dimension &wanted);
 
+// The unit in which a quantity was typed, or the SI unit, and its size in SI units.
+struct TypedUnit {
+  std::string name;
+  double si = 1;
+};
+TypedUnit typed_unit(const Quantity &quantity, const Dimension &of);
+
 // As it was typed, or in SI units: "1e-12 m3/s". Reads back as the same quantity.
 std::string quantity_text(const Quantity &quantity, const Dimension &of);
 // The SI unit: "m3/s".

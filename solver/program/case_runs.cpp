@@ -5,12 +5,11 @@
 #include "base/text.hpp"
 #include "case/identity.hpp"
 #include "case/keys.hpp"
-#include "case/physical.hpp"
-#include "observe/quantities.hpp"
 #include "output/checkpoint.hpp"
 #include "output/results.hpp"
 #include "program/exit_code.hpp"
 #include "program/progress.hpp"
+#include "program/run_line.hpp"
 #include "program/workers.hpp"
 #include "steady/search.hpp"
 #include <algorithm>
@@ -70,61 +69,6 @@ bool is_there(const RunInput &run, const RunOptions &options) {
 
 // How a run ended.
 enum RunEnd { interrupted, computed, found };
-
-// What is told of a run's end: labels and quantities.
-std::vector<std::pair<std::string, std::string>> told_quantities(const Summary &summary) {
-  std::vector<std::pair<std::string, std::string>> told;
-  if (!summary.along.empty())
-    told.emplace_back(summary.along, "time"); // on a branch the key takes the place of the time
-  else if (summary.status != word_of(Status::steady))
-    told = {{"t", "time"}, {"x_g", "x_g"}};
-  told.insert(told.end(), {{"v_g", "v_g"}, {"pressure drop", "pressure_drop"}});
-  return told;
-}
-
-// The same in SI units, on a line of its own, where the case has them.
-std::string report_in_si(const RunResult &result) {
-  const Summary &summary = *result.summary;
-  if (!has_physical(result.input.physics))
-    return "";
-  if (!summary.along.empty()) { // along most keys the scales change
-    std::string folds;
-    for (const FoldPlace &fold : summary.along == flow_key ? summary.folds : std::vector<FoldPlace>())
-      folds += fmt::format("\n  fold at a flow rate of {}", flow_rate_text(result.input.physics, fold.value));
-    return folds;
-  }
-  const Scales scales = physical_scales(result.input.physics);
-  std::string text;
-  for (const auto &[label, name] : told_quantities(summary)) {
-    const auto value = summary.quantities.find(name);
-    const auto quantity = std::ranges::find(reported_quantities(), name, &ReportedQuantity::name);
-    if (value != summary.quantities.end() && quantity != reported_quantities().end() && quantity->unit)
-      text += fmt::format("  {} {:.4g} {}", label, value->second * scales.*quantity->unit->scale,
-                          unit_text(quantity->unit->dimension));
-  }
-  return text.empty() ? "" : "\n  in SI units:" + text;
-}
-
-std::string report(const RunResult &result, const std::string &name, RunEnd end) {
-  const Summary &summary = *result.summary;
-  std::string text = fmt::format("{}: {}", name, summary.status);
-  if (!summary.failure.empty())
-    text += fmt::format(" ({})", summary.failure);
-  const auto add = [&](const std::string &label, const std::string &quantity, int digits = 6) {
-    if (const auto value = summary.quantities.find(quantity); value != summary.quantities.end())
-      text += fmt::format("  {} {:.{}g}", label, value->second, digits);
-  };
-  for (const auto &[label, quantity] : told_quantities(summary))
-    add(label, quantity);
-  for (const auto &[value, stretch] : summary.folds)
-    text += fmt::format("  fold at {:.6g}, stretch {:.3g}", value, stretch);
-  if (!summary.along.empty() && summary.folds.empty() && summary.failure.empty())
-    text += "  no fold on the way";
-  add("CPU seconds", "cpu_seconds", 3);
-  return text +
-         fmt::format("{}  -> {}", end == found ? " (computed before)" : "", result.directory.string()) +
-         report_in_si(result);
-}
 
 // The runs of one case while they are computed.
 struct CaseRuns {
@@ -279,7 +223,7 @@ struct CaseRuns {
       throw FileError(fmt::format("another process has overwritten '{}'; give each its own --out",
                                   results[index].directory.string()));
     results[index].summary = std::move(summary);
-    line.print(report(results[index], name_of(input.runs[index], input), end));
+    line.print(run_line(results[index], name_of(input.runs[index], input), end == found));
   }
 
   // A run that fails, but for its numerics, is told of by its name and stops no other.

@@ -5,12 +5,15 @@
 #include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/identity.hpp"
+#include "case/keys.hpp"
+#include "case/physical.hpp"
 #include "output/fit_files.hpp"
 #include "program/workers.hpp"
 #include <algorithm>
 #include <ctime>
 #include <fmt/format.h>
 #include <set>
+#include <variant>
 
 namespace capsule {
 namespace {
@@ -70,13 +73,17 @@ void check_together(const Case &physics, const std::vector<Contour> &contours) {
                      "with --together, give '# flow_rate = ...' in each file or in none\n");
 }
 
-std::string report(const FitRow &row, const fs::path &directory) {
+std::string report(const Case &physics, const FitRow &row, const fs::path &directory) {
   if (!row.failure.empty())
     return fmt::format("{}: failed: {}\n", row.name, row.failure);
   std::string text = fmt::format("{}: {}", row.name, row.law);
-  for (const FittedValue &value : row.values)
-    text +=
-        fmt::format("  {} {:.5g} +- {:.2g}", last_component(value.name), value.value, value.standard_error);
+  for (const FittedValue &value : row.values) {
+    const Key *key = find_key(value.name);
+    const auto *measured = key == nullptr ? nullptr : std::get_if<Measured>(&key->field);
+    const TypedUnit unit = measured == nullptr ? TypedUnit{} : own_unit(physics, measured->dimension);
+    text += fmt::format("  {} {:.5g} +- {:.2g}{}{}", last_component(value.name), value.value / unit.si,
+                        value.standard_error / unit.si, unit.name.empty() ? "" : " ", unit.name);
+  }
   return fmt::format("{}  residual {:.2g}  -> {}\n", text, row.residual, directory.string());
 }
 
@@ -97,7 +104,7 @@ bool fit_and_write(const Case &physics, const Job &job, FitStarts &starts,
   outcome.cpu_seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   write_fit(job.directory, job.identity, job.contours, outcome);
   const FitRow row = *read_fit(job.directory, job.identity);
-  fmt::print("{}", report(row, job.directory));
+  fmt::print("{}", report(physics, row, job.directory));
   for (const std::string &warning : outcome.result.warnings)
     fmt::print(stderr, "{}: warning: {}\n", row.name, warning);
   std::fflush(stdout);

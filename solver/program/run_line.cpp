@@ -1,0 +1,79 @@
+#include "program/run_line.hpp"
+#include "case/keys.hpp"
+#include "case/physical.hpp"
+#include "observe/outcome.hpp"
+#include "observe/unit_of.hpp"
+#include <fmt/format.h>
+#include <utility>
+#include <vector>
+
+namespace capsule {
+namespace {
+
+// Labels and quantities; a run tells those that it has.
+std::vector<std::pair<std::string, std::string>> told_quantities(const RunResult &result) {
+  const Summary &summary = *result.summary;
+  std::vector<std::pair<std::string, std::string>> told;
+  const bool steady = summary.status == word_of(Status::steady);
+  if (!summary.along.empty())
+    told.emplace_back(summary.along, "time"); // on a branch the key takes the place of the time
+  else if (!steady)
+    told = {{"t", "time"}, {"x_g", "x_g"}};
+  told.emplace_back("v_g", "v_g");
+  for (std::size_t k = 1; k <= result.input.physics.followers.size(); ++k)
+    for (const char *name : {"x_g", "v_g"})
+      told.emplace_back(name + capsule_mark(k), name + capsule_mark(k));
+  told.insert(told.end(), {{"pressure drop", "pressure_drop"},
+                           {"transit time", "transit_time"},
+                           {"pulse height", "transit_pulse_height"}});
+  return told;
+}
+
+std::string in_own_units(const RunResult &result) {
+  const Summary &summary = *result.summary;
+  const Case &physics = result.input.physics;
+  if (!has_physical(physics))
+    return "";
+  if (!summary.along.empty()) { // along most keys the scales change
+    std::string folds;
+    for (const FoldPlace &fold : summary.along == flow_key ? summary.folds : std::vector<FoldPlace>())
+      folds += fmt::format("\n  fold at a flow rate of {}", flow_rate_text(physics, fold.value));
+    return folds;
+  }
+  const Scales scales = physical_scales(physics);
+  std::string text;
+  for (const auto &[label, name] : told_quantities(result)) {
+    const auto value = summary.quantities.find(name);
+    const auto unit = unit_of(name.substr(0, name.find('#')));
+    if (value == summary.quantities.end() || !has_scale(unit, scales))
+      continue;
+    const TypedUnit own = own_unit(physics, unit->dimension);
+    text += fmt::format("  {} {:.4g} {}", label, value->second * scales.*unit->scale / own.si, own.name);
+  }
+  return text.empty() ? "" : "\n  in the case's units:" + text;
+}
+
+} // namespace
+
+std::string run_line(const RunResult &result, const std::string &name, bool computed_before) {
+  const Summary &summary = *result.summary;
+  std::string text = fmt::format("{}: {}", name, summary.status);
+  if (!summary.failure.empty())
+    text += fmt::format(" ({})", summary.failure);
+  const auto add = [&](const std::string &label, const std::string &quantity, int digits = 6) {
+    if (const auto value = summary.quantities.find(quantity); value != summary.quantities.end())
+      text += fmt::format("  {} {:.{}g}", label, value->second, digits);
+  };
+  for (const auto &[label, quantity] : told_quantities(result))
+    add(label, quantity);
+  for (const auto &[value, stretch] : summary.folds)
+    text += fmt::format("  fold at {:.6g}, stretch {:.3g}", value, stretch);
+  if (!summary.along.empty() && summary.folds.empty() && summary.failure.empty())
+    text += "  no fold on the way";
+  add("CPU seconds", "cpu_seconds", 3);
+  return text +
+         fmt::format("{}  -> {}", computed_before ? " (computed before)" : "", result.directory.string()) +
+         in_own_units(result);
+}
+
+} // namespace capsule
