@@ -247,11 +247,14 @@ expect 2 '^--set:1:12: error: an infinite train has no pore that a pressure driv
   "$capsule" steady file.toml --set flow.drive=pressure --set flow.period=3
 expect 2 '^--set:1:16: error: a steady state is of one capsule, or of a train of equal ones' \
   "$capsule" steady file.toml --set "capsule.radius=[0.7, 0.8]" --set "capsule.start_x=[1, -3]"
-expect 2 '^give one value for all of the train' \
+expect 2 '^--set:1:16: error: the capsules of a train are equal' \
   "$capsule" steady file.toml --set "capsule.radius=[0.7, 0.8]" --set flow.period=3
 expect 2 '^--set:1:13: error: flow.period = 0.9 of the tube holds less than one capsule' \
   "$capsule" steady file.toml --set flow.period=0.9
-expect 2 "^error: no branch along 'flow_rate'" "$capsule" branch file.toml --along flow_rate --to '5 nl/s'
+for along in eps epsilon Ca; do
+  expect 2 "^did you mean 'flow.capillary_number'[?]$" "$capsule" branch file.toml --along $along --to 0.1
+done
+expect 2 "^did you mean 'physical.flow_rate'[?]$" "$capsule" branch file.toml --along flow_rate --to '5 nl/s'
 expect 2 "^error: no branch along 'flow.period': the case has no train" \
   "$capsule" branch file.toml --along flow.period --to 3
 expect 2 "^--set:1:12: error: unknown flow.drive 'pump'" "$capsule" run file.toml --set flow.drive=pump

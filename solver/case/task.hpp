@@ -8,6 +8,7 @@ namespace capsule {
 struct Task {
   bool motion = true;
   std::string name = "run"; // with all its arguments: results of the same case are told apart by it
+  bool branch = false;      // steady states along a key
   bool fit = false;         // of measured profiles: its unknowns need no values
 };
 

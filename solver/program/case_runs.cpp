@@ -208,8 +208,10 @@ struct CaseRuns {
       const RunInput &run = input.runs[i];
       if (progress.steps > 0)
         line.update(run.name, run.physics, progress.time, progress.x_g, progress.steps);
+      else if (progress.work > 0 && options.task.branch)
+        line.update_branch(run.name, progress.work / most_work_of_search);
       else if (progress.work > 0)
-        line.update_search(run.name, options.task.name, progress.work / most_work_of_search);
+        line.update_search(run.name, progress.work / most_work_of_search);
     }
   }
 

@@ -9,6 +9,7 @@
 #include "case/keys.hpp"
 #include "case/new_case.hpp"
 #include "case/physical.hpp"
+#include "case/symbols.hpp"
 #include "case/value_lists.hpp"
 #include "compare/text_table.hpp"
 #include "motion/stops.hpp"
@@ -186,8 +187,11 @@ ExitCode find_steady_states(const Arguments &arguments) {
 }
 
 ExitCode follow_branches(const Arguments &arguments) {
+  if (const std::string near = nearest_key(arguments.along); !near.empty() && !find_key(arguments.along))
+    throw InputError(fmt::format("error: no branch along '{}'\ndid you mean '{}'?\n", arguments.along, near));
   const Task task{.motion = false,
-                  .name = fmt::format("branch --along {} --to {}", arguments.along, arguments.to)};
+                  .name = fmt::format("branch --along {} --to {}", arguments.along, arguments.to),
+                  .branch = true};
   CaseInput input = read_case_of(arguments, task);
   const auto end = [&](const Case &physics) { return end_of_branch(physics, arguments.along, arguments.to); };
   for (const auto &[name, physics] : input.runs)

@@ -29,43 +29,39 @@ double fraction_done(const Case &physics, double time, double x_g) {
   return std::clamp(fraction, 0.0, 1.0);
 }
 
-// The run with its time left, once there is something to tell.
-ProgressLine::Run *ProgressLine::longer_than_a_second(const std::string &run, double fraction) {
+void ProgressLine::show(const std::string &run, double part,
+                        const std::function<std::string(double seconds_left)> &text) {
+  if (!shown)
+    return;
+  const double fraction = std::min(part, 1.0);
   const Clock::time_point now = Clock::now();
   Run &this_run = runs.try_emplace(run, Run{now, fraction, 0, ""}).first->second;
   const double seconds = std::chrono::duration<double>(now - this_run.began).count();
   const double gained = fraction - this_run.fraction_at_first;
   if (seconds < 1 || gained <= 0)
-    return nullptr;
+    return;
   this_run.seconds_left = seconds * (1 - fraction) / gained;
-  return &this_run;
+  this_run.text = fmt::format("{}{}{}", run, run.empty() ? "" : "  ", text(this_run.seconds_left));
+  show_longest();
 }
 
 void ProgressLine::update(const std::string &run, const Case &physics, double time, double x_g, long steps) {
-  if (!shown)
-    return;
   const double fraction = fraction_done(physics, time, x_g);
-  Run *this_run = longer_than_a_second(run, fraction);
-  if (this_run == nullptr)
-    return;
-  this_run->text = fmt::format("{}{}t {:7.3f}  x_g {:7.3f}  step {:6}  {:3.0f} %  {:>6} left", run,
-                               run.empty() ? "" : "  ", time, x_g, steps, 100 * fraction,
-                               duration_text(this_run->seconds_left));
-  show_longest();
+  show(run, fraction, [&](double seconds_left) {
+    return fmt::format("t {:7.3f}  x_g {:7.3f}  step {:6}  {:3.0f} %  {:>6} left", time, x_g, steps,
+                       100 * fraction, duration_text(seconds_left));
+  });
 }
 
-void ProgressLine::update_search(const std::string &run, const std::string &task, double part) {
-  if (!shown)
-    return;
-  Run *this_run = longer_than_a_second(run, std::min(part, 1.0));
-  if (this_run == nullptr)
-    return;
-  const std::string text = task.starts_with("branch")
-                               ? "following a branch"
-                               : fmt::format("searching for a steady state, for {} more at most",
-                                             duration_text(this_run->seconds_left));
-  this_run->text = fmt::format("{}{}{}", run, run.empty() ? "" : "  ", text);
-  show_longest();
+void ProgressLine::update_search(const std::string &run, double part) {
+  const auto text = [](double seconds_left) {
+    return fmt::format("searching for a steady state, for {} more at most", duration_text(seconds_left));
+  };
+  show(run, part, text);
+}
+
+void ProgressLine::update_branch(const std::string &run, double part) {
+  show(run, part, [](double) { return "following a branch"; });
 }
 
 void ProgressLine::show_longest() {

@@ -2,6 +2,7 @@
 // Messages about the runs of a case: one line on a terminal that changes while they are computed, and lines that stay. Throws
 // nothing.
 #include <chrono>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -21,9 +22,10 @@ public:
 
   // Shows the run that will take longest. Nothing is shown in a run's first second.
   void update(const std::string &run, const Case &physics, double time, double x_g, long steps);
-  // The same of a search for a steady state, which has done this part of what it may cost; most end long before. Of a branch
-  // nobody knows the end.
-  void update_search(const std::string &run, const std::string &task, double part);
+  // The same of a search for a steady state, which has done this part of what it may cost; most end long before.
+  void update_search(const std::string &run, double part);
+  // Of a branch nobody knows the end.
+  void update_branch(const std::string &run, double part);
   void finish(const std::string &run);
   // Prints a line that stays, on standard output.
   void print(const std::string &line);
@@ -39,7 +41,8 @@ private:
     std::string text;
   };
 
-  Run *longer_than_a_second(const std::string &run, double fraction);
+  // Of a run that has something to tell: it is longer than a second under way.
+  void show(const std::string &run, double part, const std::function<std::string(double seconds_left)> &text);
   void show_longest();
   void clear();
 

@@ -94,14 +94,13 @@ BOOST_AUTO_TEST_CASE(fraction_of_the_way) {
 BOOST_AUTO_TEST_CASE(a_search_is_shown) {
   ProgressLine line(true);
   const std::string text = written_to(STDERR_FILENO, [&] {
-    line.update_search("capsule", "steady", 0.1);
+    line.update_search("capsule", 0.1);
     std::this_thread::sleep_for(std::chrono::milliseconds(1010));
-    line.update_search("capsule", "steady", 0.6);
+    line.update_search("capsule", 0.6);
   });
   BOOST_TEST(text.find("capsule  searching for a steady state, for 1 s more at most") != std::string::npos);
   std::this_thread::sleep_for(std::chrono::milliseconds(210)); // the line is written at most so often
-  const std::string of_branch =
-      written_to(STDERR_FILENO, [&] { line.update_search("capsule", "branch --along eps", 0.8); });
+  const std::string of_branch = written_to(STDERR_FILENO, [&] { line.update_branch("capsule", 0.8); });
   BOOST_TEST(of_branch.find("capsule  following a branch") != std::string::npos);
   BOOST_TEST(written_to(STDERR_FILENO, [&] { line.finish("capsule"); }) == "\r\033[K");
 }
