@@ -295,10 +295,17 @@ expect 2 'time-limit' "$capsule" run file.toml --time-limit nan
 expect 2 "^did you mean 'steady'" "$capsule" stedy file.toml
 expect 2 "^did you mean 'capsule.radius'" "$capsule" branch file.toml --along capsule.raduis --to 1
 expect 2 '^error: --to nan: .*finite number, not nan' "$capsule" branch file.toml --along capsule.radius --to nan
+expect 2 '^error: there is no directory cases/ here' "$capsule" new fresh
+mkdir cases
 expect 2 'error: is not a case directory' "$capsule" new fresh --like none
+rmdir cases
 expect 0 'capillary_number' "$capsule" keys
 expect 0 "a viscosity such as '1 mPa.s'" "$capsule" keys
 expect 0 '^ *symbol: epsilon, eps, Ca, ε$' "$capsule" keys
+expect 0 '^membrane.law ' "$capsule" keys membrane
+expect 0 '^flow.capillary_number ' "$capsule" keys eps
+expect 1 'no such key' sh -c "'$capsule' keys membrane | grep '^flow[.]' || { echo no such key; false; }"
+expect 2 "^did you mean 'membrane.bending_ratio'[?]$" "$capsule" keys bendin_ratio
 for command in run steady branch fit check ledger new; do
   expect 0 '^Usage' "$capsule" "$command" --help
   expect 1 'no such word' sh -c "'$capsule' $command --help | grep -E 'TEXT|UINT|FLOAT' || { echo no such word; false; }"

@@ -87,7 +87,7 @@ ExitCode run_command(int argc, char **argv) {
       "130 interrupted (the same command goes on)");
   Arguments arguments;
   arguments.jobs = std::max(1u, std::thread::hardware_concurrency());
-  std::string id, like = "example";
+  std::string id, like = "example", word;
   ExitCode code = ExitCode::done;
   CLI::App &run_app = *app.add_subcommand("run", "compute every run of a case that is not finished yet");
   add_computing(run_app, arguments);
@@ -143,7 +143,10 @@ ExitCode run_command(int argc, char **argv) {
       *app.add_subcommand("show", "the resolved input of every run, and what there is of it");
   add_case(show_app, arguments);
   show_app.callback([&] { code = show_case(arguments); });
-  app.add_subcommand("keys", "every key of a case file")->callback([&] { code = list_keys(); });
+  CLI::App &keys_app = *app.add_subcommand("keys", "every key of a case file, or those about a word");
+  keys_app.add_option("WORD", word, "of a key's name or meaning, or its symbol: membrane, eps")
+      ->type_name("");
+  keys_app.callback([&] { code = list_keys(word); });
   CLI::App &new_app = *app.add_subcommand("new", "a new case directory cases/ID from another one");
   new_app.add_option("ID", id, "its name")->type_name("")->required();
   new_app.add_option("--like", like, "the case to copy: a directory, or the name of one in cases/")
