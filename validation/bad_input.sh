@@ -80,7 +80,8 @@ printf '%s\ncapsule.start_x = [0, -3, -6]\nmembrane.bending_ratio = [0, 1]\n' "$
   bad '7:26: error: membrane.bending_ratio has 2 values for 3 capsules'
 printf '%s\ncapsule.start_x = [0, -1]\n' "$several" | bad '6:19: error: capsules 1 and 2 overlap at their start'
 printf '%s\ncapsule.start_x = [0, 3]\n' "$several" | bad '6:19: error: capsule 2 starts before the one that is to lead it'
-printf '%s\ncapsule.start_x = [0, -9]\n' "$several" | bad '6:19: error: capsule 2: capsule outside the reservoir'
+printf '%s\ncapsule.start_x = [0, -9]\n' "$several" | bad '6:19: error: capsule 2: capsule outside the tube'
+printf '%s\ncapsule.start_x = []\n' "$several" | bad '6:19: error: capsule.start_x has no value for any capsule'
 printf '%s\ncapsule.start_x = [0, -3]\n' "$several" | sed 's/radius = .*/radius = [0.8, 1.2]/' |
   bad '6:19: error: capsule 2: capsule larger than the pore'
 printf '%s\ncapsule.start_x = [0, "-3"]\n' "$several" | bad '6:19: error: capsule.start_x must be a number'

@@ -93,7 +93,8 @@ struct Checks {
     if (back <= -c.pore.entrance_distance)
       chosen.complain(
           {"capsule.start_x", "pore.entrance_distance", "capsule.radius"},
-          fmt::format("capsule outside the reservoir: it begins at x = {:.4g}", back),
+          fmt::format("capsule outside the {}: it begins at x = {:.4g}",
+                      c.pore.shape == PoreShape::tube ? "tube" : "reservoir", back),
           fmt::format("the entrance section is at x = {}", number_text(-c.pore.entrance_distance)));
     if (c.pore.shape == PoreShape::two_mouths && x_0 > c.pore.exit_x)
       chosen.complain({"capsule.start_x", "pore.exit_x"},

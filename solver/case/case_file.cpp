@@ -227,7 +227,7 @@ bool lists_agree(const Chosen &chosen) {
     chosen.reader.complain(
         given.place,
         fmt::format("{} has {} values for {}", assignment.key->name, values, counted(capsules, "capsule")),
-        "give one value for all of them, or one for each, the leading one's first");
+        one_value_or_each);
     return false;
   }
   return true;

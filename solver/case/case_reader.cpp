@@ -92,9 +92,9 @@ void complain_unknown(CaseReader &reader, const TextPlace &place, const std::str
                   near.empty() ? "`capsule keys` lists them all" : fmt::format("did you mean '{}'?", shown));
 }
 
+// What this key has for each capsule, or the only value.
 std::vector<Value> values_of_capsules(const Key &key, const Value &value) {
-  std::vector<Value> entries = key.of_each_capsule ? entries_of(value) : std::vector{value};
-  return entries.empty() ? std::vector{value} : entries;
+  return key.of_each_capsule ? entries_of(value) : std::vector{value};
 }
 
 // A single value or, for a sweep, the values of the list; complains about each that the key cannot take.
@@ -113,8 +113,12 @@ std::vector<GivenValue> given_values(CaseReader &reader, std::size_t source, con
   std::vector<std::string> seen;
   for (const GivenValue &given : values) {
     std::string text;
-    bool good = true;
-    for (const Value &value : values_of_capsules(key, given.value)) {
+    const std::vector<Value> entries = values_of_capsules(key, given.value);
+    bool good = !entries.empty();
+    if (!good)
+      reader.complain(given.place, fmt::format("{} has no value for any capsule", key.name),
+                      one_value_or_each);
+    for (const Value &value : entries) {
       if (auto complaint = set_value(key, value, scratch)) {
         reader.complain(given.place, complaint->message, complaint->hint);
         good = false;

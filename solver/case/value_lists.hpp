@@ -7,6 +7,10 @@
 
 namespace capsule {
 
+// What is said of a list of another length.
+inline constexpr const char *one_value_or_each =
+    "give one value for all of them, or one for each, the leading one's first";
+
 // The value, unless it was not given, is chosen automatically, or means nothing to the case. Of several capsules that
 // differ in it a list.
 std::optional<Value> value_of(const Key &key, const Case &physics);

@@ -366,7 +366,7 @@ BOOST_AUTO_TEST_CASE(unknown_keys) {
   check_errors(sphere + "[floww]\nx = 1\n",
                {"9:1: error: unknown section 'floww'", "10:1: error: unknown key 'flow.x'"});
   check_errors(sphere + "viscosity_ratio = []\n",
-               {"9:19: error: flow.viscosity_ratio must be a number, not a list"});
+               {"9:19: error: flow.viscosity_ratio has no value for any capsule"});
   check_errors(sphere + "[floww]\n", {"9:1: error: unknown section 'floww'"});
   check_errors("[elsewhere]\nx = 1\n" + sphere.substr(sphere.find('\n') + 1),
                {"2:1: error: unknown key 'elsewhere.x'"});
