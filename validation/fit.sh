@@ -57,6 +57,14 @@ awk -F, 'NR == 3 { print "x,r" } NR > 3 && $2 > 0 { printf "%.4f,%.4f\n", $2 / 6
   bad '1:1: error: no capsule: no point near the axis behind'
 : | bad '1:1: error: no points in it'
 ends 4 fit fit-example.toml --profile nothing.csv --out bad
+# No other command computes it, and each says so.
+for command in show run; do
+  ends 2 $command fit-example.toml
+  grep -q '^fit-example.toml:1:1: error: .*`capsule fit`, which finds capsule.radius, flow.capillary_number, capsule.inflation and the law$' log &&
+    [ "$(grep -c error: log)" -eq 1 ] || fail "$command of a fit"
+done
+ends 2 show "$place"
+grep -q "^did you mean '.*/fit-example.toml'" log || fail 'the only case of a directory is not named'
 ends 2 fit fit-example.toml --profile . --set 'fit.unknowns=["eps"]'
 grep -q "did you mean 'flow.capillary_number'?" log || fail 'a symbol of an unknown'
 ends 2 fit fit-example.toml --profile . --set 'fit.unknowns=["capsule.radios"]'

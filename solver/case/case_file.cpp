@@ -1,4 +1,5 @@
 #include "case/case_file.hpp"
+#include "base/failure.hpp"
 #include "base/text.hpp"
 #include "case/case_checks.hpp"
 #include "case/chosen.hpp"
@@ -368,10 +369,34 @@ CaseInput read(const fs::path &path, const std::vector<std::string> &overrides, 
   return input;
 }
 
+// What a fit would find for this case, if it has a table [fit] and everything else that a fit needs.
+std::string found_by_a_fit(const fs::path &path, const std::vector<std::string> &overrides) {
+  CaseReader reader;
+  read_case_file(reader, case_file_of(path));
+  if (!reader.sections.contains("fit"))
+    return "";
+  try {
+    const CaseInput input = read(path, overrides, {.motion = false, .name = "fit", .fit = true}, false);
+    const FitSpec &fit = input.runs.at(0).physics.fit;
+    return fmt::format("{}{}", fmt::join(fit.unknowns, ", "), fit.laws.empty() ? "" : " and the law");
+  } catch (const InputError &) {
+    return "";
+  }
+}
+
 } // namespace
 
 CaseInput read_case(const fs::path &path, const std::vector<std::string> &overrides, const Task &task) {
-  return read(path, overrides, task, false);
+  try {
+    return read(path, overrides, task, false);
+  } catch (const InputError &) {
+    const std::string found = task.fit ? "" : found_by_a_fit(path, overrides);
+    if (found.empty())
+      throw;
+    throw InputError(fmt::format("{}:1:1: error: this case is one for `capsule fit`, which finds {}\n"
+                                 "give values instead of [fit] to compute it\n",
+                                 case_file_of(path).string(), found));
+  }
 }
 
 Case read_resolved(const fs::path &file, const Task &task) {

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <system_error>
+#include <vector>
 
 namespace capsule {
 namespace {
@@ -124,14 +126,24 @@ LocatedError syntax_error(std::size_t source, const toml::parse_error &error, co
   return told;
 }
 
+// For a case.toml that is missing: the only other case of its directory.
+std::string instead_of(const fs::path &file) {
+  std::vector<std::string> others;
+  std::error_code ec;
+  for (fs::directory_iterator entry(file.parent_path(), ec), end; !ec && entry != end; entry.increment(ec))
+    if (entry->path().extension() == ".toml")
+      others.push_back(entry->path().string());
+  return others.size() == 1 ? fmt::format("did you mean '{}'?", others[0])
+                            : "a case directory holds a case.toml";
+}
+
 } // namespace
 
 std::variant<std::string, Complaint> read_text(const fs::path &file) {
   std::error_code ec;
   const fs::file_status status = fs::status(file, ec);
   if (status.type() == fs::file_type::not_found)
-    return Complaint{"no such file",
-                     file.filename() == "case.toml" ? "a case directory holds a case.toml" : ""};
+    return Complaint{"no such file", file.filename() == "case.toml" ? instead_of(file) : ""};
   if (status.type() == fs::file_type::directory)
     return Complaint{"is a directory, not a file", ""};
   if (ec)
