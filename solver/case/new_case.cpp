@@ -53,6 +53,10 @@ std::string readme(const std::string &id) {
 } // namespace
 
 fs::path new_case(const fs::path &root, const std::string &id, const fs::path &like_what) {
+  if (!fs::is_directory(root / "cases"))
+    throw InputError(
+        "error: there is no directory cases/ here: a new case is made in the project's directory; "
+        "elsewhere any .toml file is a case\n");
   if (const std::string complaint = name_complaint(root, id); !complaint.empty())
     throw InputError(fmt::format("{}:1:1: error: {}\n", id, complaint));
   fs::path directory = root / "cases" / id;
