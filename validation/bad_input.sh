@@ -90,8 +90,14 @@ printf '%s\ncapsule.start_x = [0, -3]\nuntil.last_x_g = 20\n' "$several" |
   bad '7:18: error: at until.last_x_g = 20 the last capsule would be at the end of the way'
 printf '%s\ncapsule.start_x = [0, -3]\noutput.resistance = true\n' "$several" |
   bad '7:21: error: the resistance of several capsules is not computed'
+mkdir train
 echo "$good
-flow.period = 3" | bad '4:15: error: an infinite train is computed as a steady state only'
+flow.period = 3" >train/case.toml
+for command in run check; do
+  expect 2 '^train/case.toml:4:15: error: an infinite train is computed as a steady state only' "$capsule" "$command" train
+done
+expect 0 '^period = 3$' "$capsule" show train
+rm -r train
 printf 'flow.type = "extension"\nuntil.time = 1\n%s\nflow.period = 3\n' "$good" | sed /radius/d |
   bad '5:15: error: flow.period means nothing to flow.type = "extension"'
 echo "$good

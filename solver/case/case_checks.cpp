@@ -336,11 +336,13 @@ void check_capsules(const Chosen &chosen, const Case &physics, const Task &task)
         assignment.key->of_each_capsule && entries_of(chosen.given(name)->value).size() > 1)
       lists.push_back(name);
   const std::vector<const Case *> capsules = capsules_of(physics);
+  if (physics.flow.period > 0) {
+    chosen.complain(lists, "the capsules of a train are equal", "give one value for all of them");
+    return;
+  }
   if (!task.motion)
     chosen.complain(lists, "a steady state is of one capsule, or of a train of equal ones",
-                    physics.flow.period > 0
-                        ? "give one value for all of the train"
-                        : "flow.period is the distance of those; `capsule run` marches several");
+                    "flow.period is the distance of those; `capsule run` marches several");
   if (physics.numerics == Numerics::paper)
     chosen.complain({"numerics"}, "numerics = \"paper\" has one capsule",
                     "several capsules need numerics = \"standard\"");

@@ -31,6 +31,7 @@
 #include <limits>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace capsule {
 namespace {
@@ -116,6 +117,18 @@ std::vector<std::string> remarks_on(const CaseInput &input) {
     remarks.push_back(fmt::format("`steady` searches for about {} of one core at most",
                                   duration_text(seconds_of_search(most_work_of_search))));
   return remarks;
+}
+
+// Trains are shown as steady states, the only thing that they have, any other case as a march.
+std::pair<CaseInput, Task> case_to_show(const Arguments &arguments) {
+  const Task steady{.motion = false, .name = "steady"};
+  try {
+    const CaseInput input = read_case_of(arguments, steady);
+    if (std::ranges::all_of(input.runs, [](const RunInput &run) { return run.physics.flow.period > 0; }))
+      return {input, steady};
+  } catch (const InputError &) { // told below, if it is wrong with a march, too
+  }
+  return {read_case_of(arguments), Task{}};
 }
 
 // Where runs would follow parts of one branch, only the one that begins farthest from its end on either side is left.
@@ -211,24 +224,26 @@ ExitCode fit_case(const Arguments &arguments) {
 }
 
 ExitCode show_case(const Arguments &arguments) {
-  const CaseInput input = read_case_of(arguments);
-  const RunOptions options = run_options(arguments, input);
+  const auto [input, task] = case_to_show(arguments);
+  const RunOptions options = run_options(arguments, input, task);
   std::size_t finished = 0;
   double seconds_left = 0;
   std::vector<TextRow> table{{"run", "law", "R_eq", "eps", "lambda", "delta", "Re", "state"}};
   for (const RunInput &run_input : input.runs) {
     const Case &physics = run_input.physics;
     const RunState state = state_of(run_input, options);
-    const double left = (1 - state.fraction) * estimated_seconds(physics);
+    // Of a search there is no estimate, but a limit, which a remark tells.
+    const double left = task.motion ? (1 - state.fraction) * estimated_seconds(physics) : 0;
+    const std::string to_go = task.motion ? fmt::format(", about {} to go", duration_text(left)) : "";
     finished += state.finished ? 1 : 0;
     seconds_left += left;
-    table.push_back(
-        {name_of(run_input, input), group_text("membrane.law", physics),
-         group_text("capsule.radius", physics), group_text(flow_key, physics),
-         group_text("flow.viscosity_ratio", physics), group_text("membrane.bending_ratio", physics),
-         has_physical(physics) ? fmt::format("{:.2g}", reynolds_number(physics)) : "",
-         state.finished ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
-                        : fmt::format("{}, about {} to go", unfinished_text(state), duration_text(left))});
+    table.push_back({name_of(run_input, input), group_text("membrane.law", physics),
+                     group_text("capsule.radius", physics), group_text(flow_key, physics),
+                     group_text("flow.viscosity_ratio", physics),
+                     group_text("membrane.bending_ratio", physics),
+                     has_physical(physics) ? fmt::format("{:.2g}", reynolds_number(physics)) : "",
+                     state.finished ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
+                                    : unfinished_text(state) + to_go});
     if (&run_input == &input.runs.front())
       fmt::print("{}\n", resolved_toml(physics));
     else
@@ -240,8 +255,8 @@ ExitCode show_case(const Arguments &arguments) {
   std::istringstream lines(text_table(table));
   for (std::string line; std::getline(lines, line);)
     fmt::print("# {}\n", line);
-  fmt::print("# {}, {} finished, about {} of one core to go\n", counted(input.runs.size(), "run"), finished,
-             duration_text(seconds_left));
+  fmt::print("# {}, {} finished{}\n", counted(input.runs.size(), "run"), finished,
+             task.motion ? fmt::format(", about {} of one core to go", duration_text(seconds_left)) : "");
   return ExitCode::done;
 }
 
