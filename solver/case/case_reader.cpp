@@ -323,7 +323,7 @@ void read_override(CaseReader &reader, const std::string &argument) {
     reader.text.complain(*error);
     reader.complete = false;
   } else
-    collect(reader, source, std::get<toml::table>(parsed));
+    collect(reader, source, std::get<toml::table>(parsed), true);
 }
 
 fs::path case_file_of(const fs::path &path) {

@@ -109,6 +109,8 @@ std::vector<std::string> remarks_on(const CaseInput &input) {
   }
   if (fastest != nullptr)
     remarks = {flow_rate_text(fastest->physics), reynolds_text(fastest->physics)};
+  if (const std::string strong = strong_flow_remark(input); !strong.empty())
+    remarks.push_back(strong);
   if (accuracy > 0)
     remarks.push_back(
         fmt::format("in the tube capsules move as if alone, to this accuracy, beyond a gap of about {:.1f}",

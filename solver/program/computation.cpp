@@ -1,6 +1,7 @@
 #include "program/computation.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
+#include "case/keys.hpp"
 #include "case/physical.hpp"
 #include "case/project.hpp"
 #include <algorithm>
@@ -41,6 +42,18 @@ void warn_of_inertia(const CaseInput &input) {
 }
 
 } // namespace
+
+std::string strong_flow_remark(const CaseInput &input) {
+  constexpr double strong = 1e3;
+  double strongest = 0;
+  for (const RunInput &run : input.runs)
+    for (const Case *capsule : capsules_of(run.physics))
+      strongest = std::max(strongest, capsule->flow.capillary_number);
+  return strongest <= strong ? ""
+                             : fmt::format("{} = {:.3g}: the flow is that much stronger than the membrane; "
+                                           "is a unit wrong?",
+                                           flow_key, strongest);
+}
 
 void listen_to_signals() {
   struct sigaction action {};
@@ -94,6 +107,8 @@ std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arg
                                     const Computation &computation) {
   listen_to_signals();
   warn_of_inertia(input);
+  if (const std::string strong = strong_flow_remark(input); !strong.empty())
+    fmt::print(stderr, "warning: {}: {}\n", input.name, strong);
   const RunOptions options = run_options(arguments, input, computation.task);
   std::vector<RunResult> results = compute(input, options, computation.method);
   for (const RunResult &result : results)

@@ -38,6 +38,9 @@ void listen_to_signals();
 CaseInput read_case_of(const Arguments &arguments, const Task &task = {});
 RunOptions run_options(const Arguments &arguments, const CaseInput &input, const Task &task = {});
 
+// On the run in the strongest flow, if no membrane resists that: most likely a unit is wrong. Empty if none is so strong.
+std::string strong_flow_remark(const CaseInput &input);
+
 // Computes what is not finished; says why runs failed, what else is to be known of them, and how many were interrupted.
 std::vector<RunResult> compute_case(const CaseInput &input, const Arguments &arguments,
                                     const Computation &computation = {});

@@ -61,6 +61,15 @@ BOOST_AUTO_TEST_CASE(marches_that_end_before_they_are_steady_are_remarked) {
   BOOST_TEST(unsteady_remark({results[2]}) == "");
 }
 
+BOOST_AUTO_TEST_CASE(flows_that_no_membrane_resists_are_remarked) {
+  CaseInput input{"capsule", "", std::vector<RunInput>(2)};
+  input.runs[0].physics.flow.capillary_number = 1;
+  input.runs[1].physics.flow.capillary_number = 0.05;
+  BOOST_TEST(strong_flow_remark(input) == "");
+  input.runs[1].physics.flow.capillary_number = 5e7;
+  BOOST_TEST(strong_flow_remark(input).find("flow.capillary_number = 5e+07: ") == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(routes_that_part_at_the_outlet_are_remarked) {
   RunResult result{{}, "", Summary{}};
   result.summary->status = "reached";
