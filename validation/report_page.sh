@@ -15,7 +15,13 @@ pictures=$PWD
 place=$(mktemp -d)
 cd "$place"
 driver=
-trap 'test -z "$driver" || kill "$driver" 2> /dev/null || true; rm -rf "$place"' EXIT
+session=
+leave() { # the browser ends with its session, not with its driver
+  test -z "$session" || call DELETE "/session/$session" > /dev/null || true
+  test -z "$driver" || kill "$driver" 2> /dev/null || true
+  rm -rf "$place"
+}
+trap leave EXIT
 
 fail() {
   echo "FAILS: $1"
@@ -252,4 +258,3 @@ call POST "$at/actions" "$(jq -n --argjson y "$(script 'Math.round(document.getE
 expect "a finger on the curve scrolls the page" true "$(script "scrollY > $before + 100")"
 
 expect "nothing complains" 0 "$(call POST "$at/se/log" '{"type": "browser"}' | jq '.value | length')"
-call DELETE "$at" > /dev/null
