@@ -3,7 +3,7 @@ quadrature = directory."/quadrature.csv"
 plugs = directory."/plugs.csv"
 of(layer, points, tolerance) = strcol("layer") eq layer && column("points") == points && column("tolerance") == tolerance ? \
   column("error") : NaN
-stats quadrature using (of("double", 12, 1)) name "plain" nooutput
+stats quadrature using (of("double", 12, 1)) name "gauss" nooutput
 stats quadrature using (column("tolerance") < 1 ? column("error") / column("tolerance") : NaN) name "near" nooutput
 stats quadrature using (column("film_over_panel")) name "film" nooutput
 stats plugs using (strcol("end") eq "reached" ? column("film_over_panel") : NaN) name "panels" nooutput
@@ -21,7 +21,7 @@ plot quadrature using "film_over_panel":(of("single", 12, 1)) with lines linetyp
     title "near rule, tolerance 10^{-".d."}"
 print "**Quadrature of a thin film.** Error of the velocity beside a spheroid on 16 panels of 12 points, against a finely divided", \
   sprintf("one, for films from %.0e to %.1f of a panel. Gauss's rule alone is wrong by up to %.2g; the near rule never by more", \
-    film_min, film_max, plain_max), \
+    film_min, film_max, gauss_max), \
   sprintf("than %.1f times its tolerance. The thinnest film of the capsules below that enter is %.2f panels.", near_max, panels_min)
 
 on(nodes, ratio, ended, name) = column("nodes") == nodes && column("viscosity_ratio") == ratio && \
