@@ -37,7 +37,7 @@ set origin 0.72, 0; set size noratio 0.28, 1
 set xrange [0:1.2]; set yrange [*:*]
 set xlabel "{/:Italic S} / {/:Italic R}_t"; set ylabel "{/:Italic κ}_s {/:Italic R}_t"
 set xtics 0.4; set ytics autofreq
-set offsets 0, 0, 32, 0 # room for the key
+set offsets 0, 0, graph 0.5, 0 # room for the key
 set key at graph 1, 1 right top samplen 1
 last_x_g = last_profile(1)
 plot profiles(run(1)) using (at_x_g(last_x_g, "S")):"curvature_meridional" with lines linetype 2 linewidth 1 dashtype 1 \

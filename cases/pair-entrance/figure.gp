@@ -21,13 +21,13 @@ print "**Through the mouth.** The leading capsule (black) and the one behind it 
 
 eval figure("drops", 17, 7.5)
 set multiplot layout 1, 2
-set xrange [-3.6:4]; set xlabel "{/:Italic x}_g of the capsule / {/:Italic R}_t"; set ylabel pressure_label; set yrange [0:25]
-set key bottom right
+set xrange [-3.6:4]; set xlabel "{/:Italic x}_g of the capsule / {/:Italic R}_t"; set ylabel pressure_label; set yrange [-12:25]; set ytics 0, 5
+set key bottom right samplen 1.5
 plot series(alone_ahead) using "x_g":"pressure_drop" with lines linetype 3 linewidth 3 title "alone, from the mouth", \
   series(alone_behind) using "x_g":"pressure_drop" with lines linetype 4 linewidth 3 title "alone, from behind", \
   series(pair) using "x_g":"pressure_share" with lines linetype 1 title "the leading one's share", \
   second using "x_g":"pressure_share" with lines linetype 2 title "the follower's share"
-set xlabel "{/:Italic x}_g of the follower / {/:Italic R}_t"; set ylabel "smallest gap / {/:Italic R}_t"; set yrange [0:7]
+set xlabel "{/:Italic x}_g of the follower / {/:Italic R}_t"; set ylabel "smallest gap / {/:Italic R}_t"; set yrange [0:7]; set ytics autofreq
 unset key
 plot second using "x_g":"min_gap" with lines linetype 2
 unset multiplot

@@ -38,7 +38,7 @@ set xrange [0:10]; set xlabel time_label; set ylabel "smallest gap / {/:Italic R
 set key at 9.8, 1.32
 plot for [i in pairs] second(i + 0) using "time":"min_gap" with lines linetype colour(i + 0) linewidth wide(i + 0) \
   title (first_gap[i + 0] < 0.2 ? sprintf("%s, {/:Italic ε} = %g", law_title(law(i + 0)), epsilon(i + 0)) : "")
-set xrange [0:1.6]; set xlabel "smallest gap / {/:Italic R}_t"; set ylabel "drop of both / twice that of one alone"; set yrange [0.9:1.01]
+set xrange [0:1.6]; set xlabel "smallest gap / {/:Italic R}_t"; set ylabel "drop of both / twice that of one alone"; set yrange [0.88:1.01]
 unset key
 plot for [i in pairs] second(i + 0) using (column("time") > 3 ? column("min_gap") : NaN):(column("pressure_drop") / (2 * single[i + 0])) \
   with lines linetype colour(i + 0) linewidth wide(i + 0)

@@ -7,11 +7,12 @@ ends = "($8 == \"fold\" || $8 == \"softening\")"
 unresolved = "$8 != \"steady\" && $8 != \"fold\" && $8 != \"softening\""
 
 eval figure("verdicts", 16, 8)
-set multiplot layout 1,2
+set multiplot layout 1,2 margins 0.09, 0.98, 0.32, 0.91 spacing 0.12, 0
 set logscale x; set xrange [8e-4:0.4]; set yrange [0.25:1.35]; set format x "10^{%T}"
-set xlabel "ε"; set ylabel "{/:Italic R}_{eq} / {/:Italic R}_t"
-set key outside bottom center horizontal
+set xlabel "{/:Italic ε}"; set ylabel "{/:Italic R}_{eq} / {/:Italic R}_t"
+set key at screen 0.5, 0.06 center bottom horizontal
 do for [law in "neo-hookean skalak"] {
+  if (law eq "skalak") { unset key } # one for both
   set title law eq "skalak" ? "Skalak" : "neo-Hookean"
   plot of(law, found) using "capillary_number":"R_eq" with points linetype 1 pointtype 6 pointsize 0.5 title "found", \
     of(law, ends) using "capillary_number":"R_eq" with points linetype 2 pointtype 5 pointsize 0.5 title "fold or softening", \

@@ -12,9 +12,9 @@ dearer = value_at(200, 112, 5) / value_at(0, 112, 5)
 eval figure("red-cell-speed", 16, 8)
 set multiplot layout 1, 2
 set logscale xy; set format y "10^{%T}"
-set xrange [0.8:20]; set yrange [1e-6:0.1]
+set xrange [0.8:60]; set yrange [1e-6:1]
 set xlabel "CPU time / that of the cheapest march"; set ylabel "largest error along the way, relative"
-set key top right
+set key top left
 plot for [i=1:2] transits using (is_point(word("0 200", i)) * column("seconds") / seconds_min):(way_error("error")) \
     with linespoints linetype 2*i - 1 pointtype 7 pointsize 0.5 title sprintf("{/:Italic μ_s} = %s", word("0 200", i)), \
   for [i=1:2] transits using (is_point(word("0 200", i)) * column("seconds") / seconds_min):(way_error("estimate")) \
@@ -40,7 +40,7 @@ eval figure("red-cell-area", 16, 8)
 set multiplot layout 1, 2
 set logscale xy; set xrange [7:1.5e4]; set format x "10^{%T}"
 set xlabel "{/:Italic C}"; set ylabel "steps (bold) and velocities (thin)"
-set yrange [100:4000]; set format y "%g"; set ytics (100, 200, 500, 1000, 2000)
+set yrange [100:30000]; set format y "%g"; set ytics (100, 200, 500, 1000, 2000, 5000, 10000)
 set key top left
 plot for [i=1:4] costs using (of(i, "dilatation")):(of(i, "steps")) with linespoints linetype i pointtype 7 pointsize 0.5 title titles[i], \
   for [i=1:4] costs using (of(i, "dilatation")):(of(i, "velocities")) with linespoints linetype i linewidth 0.5 pointtype 6 pointsize 0.5

@@ -33,7 +33,7 @@ do for [c=1:3] {
 do for [s=1:3] {
   eval fit_power(points_of(s, 1), "label", "seconds", 0); scene_power[s] = fit_slope
 }
-titled(text, power) = sprintf("%s: %.1f", spaced(text), power)
+titled(text, power) = sprintf("%s: %.1f", spaced(text), abs(power) < 0.05 ? 0 : power)
 
 eval figure("speed-accuracy", 24, 24)
 set multiplot layout 3, 3 margins 0.075, 0.985, 0.055, 0.93 spacing 0.055, 0.05
@@ -79,7 +79,7 @@ set key left top
 set format y "10^{%T}"
 set xlabel "nodes of the membrane, {/:Italic N}_M"; set ylabel "CPU seconds of a velocity"
 set xrange [28:300]; set xtics (32, 64, 128, 256)
-set yrange [1e-4:10]
+set yrange [2e-5:1]
 plot for [c=1:3] data."growth-membrane.csv" using "nodes":word(columns, c) with linespoints linetype c \
   title titled(column_title(c), membrane_power[c])
 set xlabel "elements or points of the wall, {/:Italic N}_B"
@@ -88,7 +88,7 @@ plot for [c=1:3] data."growth-wall.csv" using "elements":word(columns, c) with l
   title titled(column_title(c), wall_power[c])
 set xlabel "accuracy asked for"; set ylabel "CPU seconds of an entrance"
 set format x "10^{%T}"; set xtics auto
-set xrange [2e-2:5e-8]; set yrange [0.1:1000]
+set xrange [2e-2:5e-8]; set yrange [0.05:50]
 plot for [s=1:3] points_of(s, 1) using "label":"seconds" with linespoints linetype s \
   title titled(scene_title(s), scene_power[s])
 unset multiplot

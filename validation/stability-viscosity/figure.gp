@@ -17,7 +17,7 @@ larger(x) = condition_max / 1000 * (x > 1 ? x : 1 / x)
 set xrange [5e-4:2e3]; set yrange [1:1e4]
 set xlabel "{/:Italic λ}"; set ylabel "condition number"
 set ytics nomirror; set y2label "seconds of an entrance"; set y2range [0:*]; set y2tics; set border 11
-set key top center
+set key outside top center horizontal
 plot systems using "viscosity_ratio":"condition" with points linetype 1 title "condition number", \
   larger(x) with lines linetype 1 linecolor rgb "#808080" title "∝ larger of {/:Italic λ}, 1/{/:Italic λ}", \
   entrances using "viscosity_ratio":"seconds" axes x1y2 with linespoints linetype 2 title "seconds"

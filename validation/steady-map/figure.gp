@@ -23,7 +23,7 @@ unset contour; set surface
 set datafile separator whitespace; unset datafile columnheaders
 set multiplot layout 2,2
 set xrange [0.65:1.1]; set yrange [0.01:0.2]; set logscale y
-set xlabel "{/:Italic R}_{eq} / {/:Italic R}_t"; set ylabel "ε"
+set xlabel "{/:Italic R}_{eq} / {/:Italic R}_t"; set ylabel "{/:Italic ε}"; set xtics 0.7, 0.1
 do for [quantity in "pressure_drop min_film"] {
   do for [q=1:2] {
     block = sprintf("$contours_%d_%s", q, quantity)
