@@ -2,7 +2,6 @@
 // with a noise of half of one, seeded. How far the fits are from the truth, how often their 90 % intervals contain it, how
 // often the law is right; what a velocity adds, what a silhouette loses, and what wrong assumptions do.
 #include "study.hpp"
-#include "base/csv.hpp"
 #include "base/failure.hpp"
 #include "case/case.hpp"
 #include "case/key_path.hpp"
@@ -17,7 +16,6 @@
 #include <fmt/format.h>
 #include <numbers>
 #include <random>
-#include <sstream>
 
 using namespace capsule;
 
@@ -222,6 +220,8 @@ std::string trial(unsigned seed) {
   return text;
 }
 
+constexpr const char *laws_header = "capillary_number,inflation_known,aic_difference";
+
 // The evidence for the true one of two laws at a flow, a = 0.9, inflation 3 %, with the inflation known or not.
 std::string evidence(double flow, bool prestress_known) {
   Truth truth;
@@ -252,29 +252,40 @@ struct Row {
   int parachute, inside[3];
 };
 
+std::string trials_header() {
+  return fmt::format("variant,{},{},steady_seconds", truth_head, row_head);
+}
+
 std::vector<Row> rows_of(const std::string &text) {
+  const Rows table(trials_header(), text);
   std::vector<Row> rows;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    const std::vector<std::string> f = split_csv(line);
-    const auto seed = static_cast<unsigned>(std::stoul(f[1]));
-    if (f[7] == "failed") {
-      rows.push_back({f[0], f[2], f[7], std::stod(f[4]), 1, 1, 1, 1, 0, 0, seed, std::stoi(f[6]), {0, 0, 0}});
-      continue;
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    const auto value = [&](const char *column) { return table.value(k, column); };
+    const auto whole = [&](const char *column) { return std::stoi(table.text(k, column)); };
+    Row row{table.text(k, "variant"),
+            table.text(k, "true_law"),
+            table.text(k, "law"),
+            value("capillary_number"),
+            1,
+            1,
+            1,
+            1,
+            0,
+            0,
+            static_cast<unsigned>(whole("seed")),
+            whole("parachute"),
+            {0, 0, 0}};
+    if (row.law != "failed") {
+      row.size = value("size_error");
+      row.modulus = value("modulus_error");
+      row.inflation = value("inflation_error");
+      row.modulus_bar = value("modulus_bar");
+      row.seconds = value("cpu_seconds");
+      row.steady_seconds = value("steady_seconds");
+      const char *const inside[] = {"size_inside", "modulus_inside", "inflation_inside"};
+      std::ranges::transform(inside, row.inside, whole);
     }
-    rows.push_back({f[0],
-                    f[2],
-                    f[7],
-                    std::stod(f[4]),
-                    std::stod(f[8]),
-                    std::stod(f[9]),
-                    std::stod(f[10]),
-                    std::stod(f[12]),
-                    std::stod(f[18]),
-                    std::stod(f[19]),
-                    seed,
-                    std::stoi(f[6]),
-                    {std::stoi(f[14]), std::stoi(f[15]), std::stoi(f[16])}});
+    rows.push_back(row);
   }
   return rows;
 }
@@ -344,12 +355,12 @@ void write_tables(const std::string &directory, const std::vector<Row> &rows, co
 // The smallest capillary number from which on the evidence is 20 to 1, of the rows of evidence().
 double told_apart_from(const std::string &text, bool prestress_known) {
   double from = 1;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    const std::vector<std::string> f = split_csv(line);
-    if ((f[1] == "1") == prestress_known)
-      from = std::stod(f[2]) < 2 * std::log(20.0) ? 1 : std::min(from, std::stod(f[0]));
-  }
+  const Rows rows(laws_header, text);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if ((rows.text(k, "inflation_known") == "1") == prestress_known)
+      from = rows.value(k, "aic_difference") < 2 * std::log(20.0)
+                 ? 1
+                 : std::min(from, rows.value(k, "capillary_number"));
   return from;
 }
 
@@ -365,9 +376,8 @@ bool study(const std::string &directory, unsigned jobs) {
   std::string all, laws_apart;
   for (std::size_t i = 0; i < texts.size(); ++i)
     (i < trials ? all : laws_apart) += texts[i];
-  write_atomically(directory + "/trials.csv",
-                   fmt::format("variant,{},{},steady_seconds\n", truth_head, row_head) + all);
-  write_atomically(directory + "/laws.csv", "capillary_number,inflation_known,aic_difference\n" + laws_apart);
+  write_atomically(directory + "/trials.csv", trials_header() + "\n" + all);
+  write_atomically(directory + "/laws.csv", fmt::format("{}\n{}", laws_header, laws_apart));
 
   const std::vector<Row> rows = rows_of(all);
   const auto of = [&](const std::string &variant, auto &&wanted) {

@@ -1,8 +1,6 @@
 // What a red cell costs: time against error of its way through a short pore, with and without a viscous membrane; and steps
 // and time of cells whose area is the harder to change the larger Skalak's C is, to where it hardly changes at all.
 #include "study.hpp"
-#include "base/csv.hpp"
-#include "base/text.hpp"
 #include "law/skalak.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/split_bdf.hpp"
@@ -14,7 +12,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <sstream>
 
 using namespace capsule;
 
@@ -184,10 +181,13 @@ struct Cost {
   double steps, area_change, pressure_drop, settled;
 };
 
+constexpr const char *cost_header = "cell,dilatation,nodes,steps,velocities,mobilities,seconds,area_change,"
+                                    "pressure_drop,steady_pressure_drop";
+
 Cost read_cost(const std::string &text) {
-  const std::vector<std::string> fields = split_csv(text);
-  const auto field = [&](std::size_t k) { return to_number(fields[k]).value_or(NAN); };
-  return {field(3), field(7), field(8), field(9)};
+  const Rows row(cost_header, text);
+  return {row.value(0, "steps"), row.value(0, "area_change"), row.value(0, "pressure_drop"),
+          row.value(0, "steady_pressure_drop")};
 }
 
 bool cost_against_dilatation(const std::string &directory, unsigned jobs) {
@@ -199,8 +199,7 @@ bool cost_against_dilatation(const std::string &directory, unsigned jobs) {
       tasks.push_back({fmt::format("{}-{}", cell.name, dilatation),
                        [cell, dilatation] { return cost_of(cell, dilatation); }});
   const std::vector<std::string> rows = make_all(directory, jobs, tasks);
-  Table table("cell,dilatation,nodes,steps,velocities,mobilities,seconds,area_change,pressure_drop,steady_"
-              "pressure_drop");
+  Table table(cost_header);
   for (const std::string &row : rows)
     table.add(row);
   table.write(directory + "/costs.csv");

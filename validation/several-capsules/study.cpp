@@ -13,7 +13,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <sstream>
 #include <utility>
 
 using namespace capsule;
@@ -302,6 +301,8 @@ void add_pair(const std::string &directory, const Runs &runs, std::size_t k, Cal
   }
 }
 
+constexpr const char *train_header = "quantity,difference,estimate_of_finer,estimate";
+
 // A line for each quantity of a train, at its accuracy and at a hundredth of it.
 std::string train_differences(const Neighbours &row) {
   std::array<Outcome, 2> outcomes;
@@ -333,11 +334,10 @@ std::vector<Neighbours> all_trains() {
 }
 
 void add_train(const Neighbours &row, const std::string &lines, Calibration &calibration) {
-  std::istringstream stream(lines);
-  for (std::string line; std::getline(stream, line);) {
-    const std::vector<std::string> cells = split_csv(line);
-    calibration.add(row, {cells[0], std::stod(cells[1]), std::stod(cells[2]), std::stod(cells[3])});
-  }
+  const Rows rows(train_header, lines);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    calibration.add(row, {rows.text(k, "quantity"), rows.value(k, "difference"),
+                          rows.value(k, "estimate_of_finer"), rows.value(k, "estimate")});
 }
 
 bool estimates_are_bounds(const std::string &directory, unsigned jobs, const Runs &runs) {
