@@ -43,10 +43,14 @@ std::size_t end_of_subscript(std::string_view text, std::size_t from) {
   return is_name ? from : end;
 }
 
+// The end of a number that begins at `from`: "-1.05"; a full stop behind it is none of it.
 std::size_t end_of_power(std::string_view text, std::size_t from) {
   std::size_t end = from < text.size() && text[from] == '-' ? from + 1 : from;
   const std::size_t first_digit = end;
-  while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0)
+  const auto is_digit = [&](std::size_t at) {
+    return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
+  };
+  while (is_digit(end) || (end > first_digit && end < text.size() && text[end] == '.' && is_digit(end + 1)))
     ++end;
   return end == first_digit ? from : end;
 }

@@ -48,7 +48,7 @@ std::string question(const fs::path &directory) {
 // A part of the page, what its list of contents says of it, and what is missing in it.
 struct Part {
   std::string html;
-  std::map<std::string, std::string> contents; // by the name of the file, which is the order of the paper
+  std::map<std::string, std::string> contents; // figures of the paper by their numbers, others by their cases
   std::string missing;
 };
 
@@ -73,12 +73,13 @@ Caption caption_of(const fs::path &picture) {
 // A figure with its caption. It is drawn for a printed column; the page shows it 1.5 times as large.
 Part figure(const fs::path &picture, const std::string &id) {
   const Caption text = caption_of(picture);
-  const std::string anchor = escaped(id + "-" + picture.stem().string());
+  const std::string stem = picture.stem().string(), anchor = escaped(id + "-" + stem);
+  const bool is_of_the_paper = text.name.starts_with("Figure ");
   return {fmt::format("<figure id=\"{0}\"><button type=\"button\" class=\"enlarge\" title=\"Enlarge\">"
                       "<img alt=\"{1}\" srcset=\"data:image/svg+xml;base64,{2} 0.67x\"></button>\n"
                       "<figcaption>{3}</figcaption></figure>\n",
                       anchor, text.name, base64(capsule::read_file(picture)), text.whole),
-          {{picture.stem().string() + id,
+          {{is_of_the_paper ? stem : id + "-" + stem,
             fmt::format("<li><a href=\"#{}\">{}</a>{}</li>\n", anchor, text.name, text.subject)}},
           ""};
 }

@@ -56,7 +56,7 @@ sed '/^start_x/s/-2.5/[-2.5, -4.2]/; /sweep/,$d' cases/small/case.toml > cases/t
 "$capsule" run cases/two > /dev/null 2>&1
 mkdir -p figures/small tables validation/uncomputed
 echo '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"><rect width="300" height="200" fill="#fff"/></svg>' > figures/small/shape.svg
-echo '**Figure 5a.** Profiles at x_g = 2: they differ by 1e-05 in max_stretch.' > figures/small/shape.md
+echo '**Figure 5a.** Profiles at x_g = 2: they differ by 1e-05 in max_stretch, like N^-1.05 and 10^4.' > figures/small/shape.md
 cat > tables/ledger.csv << 'END'
 claim,row,where,kind,statement,published,with the paper's numerics,converged,own error,distance,allowed,verdict,cause,reading and evidence,run,quantity
 A,A-1,Table 2,number,"v_g, lambda 1",1.3012,,1.30174231,2e-06,+0.04 %,0.1 %,agrees,,one digit,,
@@ -75,7 +75,7 @@ END
 echo '# What is not computed?' > validation/uncomputed/README.md
 "$report" page.html cases/small cases/two validation/uncomputed
 grep -q 'What is not computed? <code>cmake --build build --target study-uncomputed</code>' page.html || fail "a missing study is not named"
-grep -q '<figcaption><strong>Figure 5a.</strong> Profiles at x<sub>g</sub> = 2: they differ by 1·10<sup>-5</sup> in max_stretch' page.html ||
+grep -q '<figcaption><strong>Figure 5a.</strong> Profiles at x<sub>g</sub> = 2: they differ by 1·10<sup>-5</sup> in max_stretch, like N<sup>-1.05</sup> and 10<sup>4</sup>[.]' page.html ||
   fail "the caption's symbols"
 grep -q '<li><a href="#small-shape">Figure 5a</a> Profiles at x<sub>g</sub> = 2</li>' page.html || fail "the list of figures"
 if grep -Eo '(src|href)="(https?:)?//[^"]*"' page.html; then

@@ -17,7 +17,7 @@ do for [n=1:words(times)] {
     for [side=-1:1:2] second_profiles using (at_time(t + 0, "x")):(side * column("r")) with lines linetype 2
 }
 unset multiplot
-print "**Through the mouth.** The leading capsule (black) and the one behind it at the start, with the first in the mouth, and with the second there."
+print "**Through the mouth.** The leading capsule, black, and the one behind it: at the start, with the first in the mouth, and with the second there."
 
 eval figure("drops", 17, 7.5)
 set multiplot layout 1, 2

@@ -18,7 +18,7 @@ do for [i=1:count] {
     for [t in times] for [side=-1:1:2] second_profiles(i) using (at_time(t + 0, "x")):(side * column("r")) with lines linetype 2
 }
 unset multiplot
-print "**Shapes** at the start and at the end, the leading capsule on the right of each. Soft: ε = 0.1, stiff: 0.02."
+print "**Shapes of unequal pairs.** Each pair at the start and at the end, the leading capsule on the right. Soft: ε = 0.1, stiff: 0.02."
 
 eval figure("gap", 17, 7.5)
 set multiplot layout 1, 2

@@ -43,7 +43,7 @@ unset key
 plot for [i in pairs] second(i + 0) using (column("time") > 3 ? column("min_gap") : NaN):(column("pressure_drop") / (2 * single[i + 0])) \
   with lines linetype colour(i + 0) linewidth wide(i + 0)
 unset multiplot
-print "**Gaps of pairs.** Left: gap of pairs that begin at gaps of 0.1, 0.6 and 1.4. Right: how much of the pressure drop of two single capsules a pair needs (t > 3). At the kinks the rim of the rear becomes the nearest place."
+print "**Gaps of pairs.** How the gaps of pairs change that begin at 0.1, 0.6 and 1.4, and how much of the pressure drop of two single capsules a pair needs, against its gap (t > 3). At the kinks the rim of the rear becomes the nearest place."
 
 eval table("pairs")
 print "law,ε,gap at the start,at the end,spacing at the end,drop of both / twice that of one"

@@ -51,7 +51,7 @@ plot for [i=1:4] costs using (of(i, "dilatation")):(of(i, "area_change")) with l
   [10:1e4] 2 / x with lines linecolor rgb "#808080" title "∝ 1/{/:Italic C}"
 unset multiplot
 print "**Membranes that hardly change their area** (Skalak). Left: steps and velocities of a march with C:", \
-  sprintf("from C = 100 to 10^4 %.1f to %.1f times the steps, %.1f to %.1f times the CPU time.", \
+  sprintf("from C = 100 to 10^4, %.1f to %.1f times the steps, %.1f to %.1f times the CPU time.", \
     lower(lower(ratio(1, 4), ratio(2, 4)), lower(ratio(3, 4), ratio(4, 4))), upper(upper(ratio(1, 4), ratio(2, 4)), upper(ratio(3, 4), ratio(4, 4))), \
     lower(lower(ratio(1, 7), ratio(2, 7)), lower(ratio(3, 7), ratio(4, 7))), upper(upper(ratio(1, 7), ratio(2, 7)), upper(ratio(3, 7), ratio(4, 7)))), \
   "Right: the largest change of area of any node at any time."

@@ -23,9 +23,9 @@ plot marches using ($1 > 0 ? $1 : NaN):"end" with points linetype 1 pointsize 1.
   predicted / sqrt(x) with lines linetype 3 title "2π / slowest rate at the same distance below"
 print "**Slow passage at a fold.** Time that a neo-Hookean sphere (R_eq = 0.7, δ = 0.01) takes in an endless tube from rest until the program", \
   sprintf("calls it unbounded, just above its fold (ε = %.6f, stretch %.2f). Without its constant part, spent before and after the", fold, fold_stretch), \
-  sprintf("passage, it goes like (ε - ε_c)^{%.3f}; the factor is %.2f, and %.2f by the eigenvalue of the stable states below.", \
+  sprintf("passage, it goes like (ε - ε_c)^%.3f; the factor is %.2f, and %.2f by the eigenvalue of the stable states below.", \
     exponent, factor, predicted), \
-  sprintf("A stretch of 3 is only a little above that of the fold, so the time to it still goes like (ε - ε_c)^{%.2f}.", exponent_to_3)
+  sprintf("A stretch of 3 is only a little above that of the fold, so the time to it still goes like (ε - ε_c)^%.2f.", exponent_to_3)
 
 eval figure("stability-runaway-histories", 12, 9)
 set logscale x; set xrange [1:1000]; set yrange [1:4.2]

@@ -26,7 +26,7 @@ print "**Explicit steps.** Largest step of which a disturbance dies away, found 
   "(Runge and Kutta) over the largest eigenvalue of the linearised motion, for nodes from 28 to 64, bending ratios from 1e-5 to 1e-2,", \
   "capillary numbers from 0.01 to 0.3 and viscosity ratios from 0.1 to 100. They agree within", \
   sprintf("%.1f %% where the limit is below 0.006; longer steps change the shape before the test has ended.", 100 * error_max), \
-  sprintf("Freezing the mobility changes the eigenvalue by at most %.1f %%. Euler's limit falls with the nodes like N^{%.2f} and", \
+  sprintf("Freezing the mobility changes the eigenvalue by at most %.1f %%. Euler's limit falls with the nodes like N^%.2f and", \
     100 * frozen_max, nodes_slope), \
-  sprintf("grows like ε^{%.2f}: between %.1e and %.1e here. The default's mean step stays between %.2f and %.2f.", \
+  sprintf("grows like ε^%.2f: between %.1e and %.1e here. The default's mean step stays between %.2f and %.2f.", \
     number_slope, limit_min, limit_max, default_min, default_max)
