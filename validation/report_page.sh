@@ -55,7 +55,7 @@ sed '/^start_x/s/-2.5/[-2.5, -4.2]/; /sweep/,$d' cases/small/case.toml > cases/t
 "$capsule" run cases/small > /dev/null 2>&1
 "$capsule" run cases/two > /dev/null 2>&1
 mkdir -p figures/small tables validation/uncomputed
-echo '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"><rect width="300" height="200" fill="#fff"/></svg>' > figures/small/shape.svg
+echo '<svg xmlns="http://www.w3.org/2000/svg" width="600" height="400"><rect width="600" height="400" fill="#fff"/></svg>' > figures/small/shape.svg
 echo '**Figure 5a.** Profiles at x_g = 2: they differ by 1e-05 in max_stretch, like N^-1.05 and 10^4.' > figures/small/shape.md
 cat > tables/ledger.csv << 'END'
 claim,row,where,kind,statement,published,with the paper's numerics,converged,own error,distance,allowed,verdict,cause,reading and evidence,run,quantity
@@ -247,6 +247,11 @@ expect "it fits a narrow screen" true "$(script 'document.documentElement.scroll
 expect "it is dark where dark is wanted" 'rgb(20, 23, 27)' "$(script 'getComputedStyle(document.body).backgroundColor')"
 expect "figures follow" true "$(script 'getComputedStyle(document.querySelector("figure img")).filter.includes("invert")')"
 expect "claims are cards" block "$(script 'getComputedStyle(document.querySelector("#claims tbody:not([hidden])")).display')"
+script 'document.querySelector("button.enlarge").click()' > /dev/null
+expect "an enlarged figure keeps its size there, and moves sideways" "600 true" "$(script '(() => {
+  const image = document.querySelector("#enlarged img"), { scrollWidth, clientWidth } = image.parentElement;
+  return [image.getBoundingClientRect().width, scrollWidth > clientWidth].join(" ") })()')"
+script 'document.querySelector("#enlarged button").click()' > /dev/null
 script 'document.getElementById("player").scrollIntoView()' > /dev/null
 picture narrow-dark
 call POST "$at/goog/cdp/execute" '{"cmd": "Emulation.setTouchEmulationEnabled", "params": {"enabled": true}}' > /dev/null
