@@ -7,7 +7,7 @@ stats rates using (column("viscosity_ratio") > 99 ? -100 * column("growth_rate")
 eval figure("relaxation", 13, 9)
 set logscale xy
 set xrange [0.008:125]; set yrange [0.03:2]
-set xlabel "λ"; set ylabel "rate of relaxation / ({/:Italic Q}/π{/:Italic R}_t^3)"
+set xlabel "{/:Italic λ}"; set ylabel "rate of relaxation / ({/:Italic Q}/π{/:Italic R}_t^3)"
 set key bottom left
 plot rates using "viscosity_ratio":(-column("growth_rate")) with linespoints linetype 1 pointsize 0.4 title "slowest small motion", \
   [12:100] thick_max / x with lines linetype 2 title "∝ 1/λ"

@@ -11,7 +11,7 @@ lines(key) = sprintf("plot for [k=1:3] line_of(k, '%s') using 'value':'capillary
 
 eval figure("snap-through", 16, 15)
 set multiplot layout 2,2
-set xlabel "ε"; set ylabel pressure_label
+set xlabel "{/:Italic ε}"; set ylabel pressure_label
 set xrange [0.007:0.0145]; set yrange [16.9:18.6]; set xtics 0.002
 set key top right
 set title "Skalak, {/:Italic C} = 1"
@@ -22,11 +22,11 @@ plot of("branches", one) using "capillary_number":"pressure_drop" with lines lin
   of("marches", "$1 == \"falling\"") using "capillary_number":"pressure_drop" with points linetype 2 pointtype 10 title "falling"
 set title "both states between the lines"
 set logscale y; set xtics auto; set yrange [0.004:0.05]; set ytics (0.005, 0.01, 0.02, 0.05)
-set ylabel "ε"
+set ylabel "{/:Italic ε}"
 set xlabel "{/:Italic R}_{eq} / {/:Italic R}_t"; set xrange [0.48:1]
 eval lines("capsule.radius")
 unset key
-set xlabel "δ"; set logscale x; set xrange [1.5e-4:3e-3]; set xtics (2e-4, 5e-4, 1e-3, 2e-3); set yrange [0.002:0.02]; set ytics (0.002, 0.005, 0.01, 0.02)
+set xlabel "{/:Italic δ}"; set logscale x; set xrange [1.5e-4:3e-3]; set xtics (2e-4, 5e-4, 1e-3, 2e-3); set yrange [0.002:0.02]; set ytics (0.002, 0.005, 0.01, 0.02)
 eval lines("membrane.bending_ratio")
 set yrange [0.004:0.05]; set ytics (0.005, 0.01, 0.02, 0.05)
 set xlabel "{/:Italic A}/{/:Italic B}"; unset logscale x; set xtics auto; set xrange [0.8:1.55]

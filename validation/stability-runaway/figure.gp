@@ -9,7 +9,7 @@ predicted = field("fit.csv", "predicted_factor")
 fold = field("fit.csv", "fold")
 fold_stretch = field("fit.csv", "fold_stretch")
 pore(row, column) = system(sprintf("awk -F, 'NR == %d {print $%d}' %s/pore.csv", row + 1, column, directory))
-distance_label = "distance from the fold, ε - ε_c"
+distance_label = "distance from the fold, {/:Italic ε} - {/:Italic ε}_c"
 
 exponent_to_3 = field("fit.csv", "exponent_to_3")
 eval figure("stability-runaway", 12, 9)

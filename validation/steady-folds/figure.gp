@@ -9,7 +9,7 @@ set datafile missing NaN
 
 eval figure("critical-capillary-number", 14, 9)
 set xrange [0.68:1.12]; set yrange [0:*]
-set xlabel "{/:Italic R}_{eq} / {/:Italic R}_t"; set ylabel "critical ε"
+set xlabel "{/:Italic R}_{eq} / {/:Italic R}_t"; set ylabel "critical {/:Italic ε}"
 set key top right
 plot folds using (of("sphere", "radius")):(of("sphere", "capillary_number")) with linespoints linetype 1 \
     title "sphere, δ = 0.001", \
