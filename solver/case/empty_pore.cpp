@@ -8,7 +8,7 @@
 namespace capsule {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Of the loss over the half hyperboloid's, less 1, in 2 sqrt(cos alpha) - 1; the first one counts by half. Written by
 // tool/fit_mouth.cpp.

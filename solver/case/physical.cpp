@@ -11,7 +11,7 @@
 namespace capsule {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double shear_modulus(const Case &physics) {
   const auto &p = physics.physical;

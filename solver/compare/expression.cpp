@@ -115,7 +115,7 @@ bool is_digit(char c) {
 struct Expression::Node {
   double number = 0;
   std::optional<Reference> reference;
-  const Function *function = nullptr;
+  Values (*function)(const Arguments &) = nullptr;
   std::vector<Node> arguments;
 
   Values values(const Lookup &lookup) const {
@@ -126,7 +126,7 @@ struct Expression::Node {
     Arguments inner;
     for (const Node &argument : arguments)
       inner.push_back(argument.values(lookup));
-    return function->apply(inner);
+    return function(inner);
   }
 
   void collect(std::vector<Reference> &found) const {
@@ -178,7 +178,7 @@ private:
     if (arguments.size() < found->second.least || arguments.size() > found->second.most)
       fail(fmt::format("wrong number of arguments of '{}'", name));
     Node node;
-    node.function = &found->second;
+    node.function = found->second.apply;
     node.arguments = std::move(arguments);
     return node;
   }

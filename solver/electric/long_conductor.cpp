@@ -10,7 +10,7 @@
 namespace capsule {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Next to each zeta, where dx/dzeta vanishes. Errors of it count by their square only.
 Vector extremes_near(Vector zeta, const Meridian &meridian) {

@@ -10,7 +10,7 @@ namespace capsule {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Curve blank_curve(Eigen::Index size, Eigen::Index panel_points) {
   Curve curve;

@@ -8,7 +8,7 @@
 namespace capsule {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Midpoints of equal parts of [0, pi].
 Vector midpoints(Eigen::Index parts) {

@@ -10,10 +10,10 @@ namespace {
 
 // The error along the way is at most this many times the largest difference of the two marches; at the end, where few
 // rows may agree by accident, twice as many times. With Euler's scheme, of order 1, the difference is a ninth of the error.
-constexpr double safety = 3;
+constexpr double most_above_difference = 3;
 double safety_of(const std::string &quantity, Scheme scheme) {
   const bool of_the_way = quantity.find('@') != std::string::npos;
-  return safety * (of_the_way ? 1 : 2) * (scheme == Scheme::euler ? 9 : 1);
+  return most_above_difference * (of_the_way ? 1 : 2) * (scheme == Scheme::euler ? 9 : 1);
 }
 
 // Rows this near to a peak have its error, too.

@@ -10,7 +10,7 @@
 namespace capsule {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Distance in zeta of the first and the last point from the poles, where ratios such as r/R are 0/0. Even fields differ
 // from their limits there by its square.

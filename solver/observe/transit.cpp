@@ -7,15 +7,15 @@
 namespace capsule {
 namespace {
 
-constexpr PhysicalUnit second{&Scales::time, dimension::time};
-constexpr PhysicalUnit ohm{&Scales::resistance, dimension::resistance};
+constexpr PhysicalUnit seconds{&Scales::time, dimension::time};
+constexpr PhysicalUnit ohms{&Scales::resistance, dimension::resistance};
 
-constexpr std::array quantities{
-    TransitQuantity{"time", "from `output.transit_from` to `output.transit_to`", &Transit::time, second},
-    TransitQuantity{"pulse_height", "the largest resistance that the capsule adds", nullptr, ohm},
-    TransitQuantity{"pulse_width", "time for which it exceeds half of that", &Transit::pulse_width, second},
-    TransitQuantity{"pulse_rise", "time in which it rises from 10 to 90 %", &Transit::pulse_rise, second},
-    TransitQuantity{"pulse_fall", "time in which it falls from 90 to 10 %", &Transit::pulse_fall, second}};
+constexpr std::array of_transits{
+    TransitQuantity{"time", "from `output.transit_from` to `output.transit_to`", &Transit::time, seconds},
+    TransitQuantity{"pulse_height", "the largest resistance that the capsule adds", nullptr, ohms},
+    TransitQuantity{"pulse_width", "time for which it exceeds half of that", &Transit::pulse_width, seconds},
+    TransitQuantity{"pulse_rise", "time in which it rises from 10 to 90 %", &Transit::pulse_rise, seconds},
+    TransitQuantity{"pulse_fall", "time in which it falls from 90 to 10 %", &Transit::pulse_fall, seconds}};
 
 using Series = std::vector<SeriesRow>;
 
@@ -94,7 +94,7 @@ std::optional<Transit> transit_of(const Case &physics, const Series &series) {
 }
 
 std::span<const TransitQuantity> transit_quantities() {
-  return quantities;
+  return of_transits;
 }
 
 } // namespace capsule

@@ -23,10 +23,11 @@ namespace {
 
 constexpr const char *flow_rate_key = "physical.flow_rate";
 
-constexpr Branch::Steps steps{.first = 0.02, .largest = 0.1, .tolerance = 1e-9, .largest_miss = 0.2};
+constexpr Branch::Steps steps_of_a_branch{
+    .first = 0.02, .largest = 0.1, .tolerance = 1e-9, .largest_miss = 0.2};
 constexpr double accuracy_of_folds = 1e-6;
 constexpr int most_nodes_of_a_branch = 300;
-constexpr int most_points = 500;
+constexpr int most_points_of_a_branch = 500;
 constexpr double farthest_stretch = 10; // to which a branch without folds is followed
 
 // What is recorded of a branch's points as they are found.
@@ -95,7 +96,7 @@ public:
     state_ = start.state;
     outcome().branch.push_back(record({state_.unknowns, 0}, true));
     branch_ = std::make_unique<Branch>(*state_.system, path_, BranchPoint{state_.unknowns, 0},
-                                       Branch::upwards(*state_.system), steps);
+                                       Branch::upwards(*state_.system), steps_of_a_branch);
   }
 
   // To the next point; true at the end.
@@ -129,10 +130,11 @@ public:
                       path_.text(part_), outcome().folds.empty() ? "" : ", behind a fold");
       return true;
     }
-    if (std::ssize(outcome().branch) > most_points)
-      throw NumericsFailure(failure_kind::step,
-                            fmt::format("{} points have led to {} only", most_points, path_.text(part_)),
-                            "a nearer --to");
+    if (std::ssize(outcome().branch) > most_points_of_a_branch)
+      throw NumericsFailure(
+          failure_kind::step,
+          fmt::format("{} points have led to {} only", most_points_of_a_branch, path_.text(part_)),
+          "a nearer --to");
     if (branch_->wants_a_finer_mesh())
       refine_mesh(branch_->point(), branch_->tangent(), branch_->trend());
     return false;
@@ -165,7 +167,8 @@ private:
     const SteadyState guess = moved_to_mesh(path_.at(point.parameter), more, {state_.system, point.unknowns});
     try {
       branch_ = std::make_unique<Branch>(*guess.system, path_, BranchPoint{guess.unknowns, point.parameter},
-                                         moved_to(*guess.system, *state_.system, tangent), steps, trend);
+                                         moved_to(*guess.system, *state_.system, tangent), steps_of_a_branch,
+                                         trend);
       state_ = {guess.system, branch_->point().unknowns};
     } catch (const NumericsFailure &) {
       may_refine_ = false;

@@ -13,9 +13,9 @@
 namespace capsule {
 namespace {
 
-constexpr double first_step = 0.05, largest_step = 0.5, smallest_step = 1e-5; // lengths of weighted()
-constexpr int slow = 5;         // iterations of Newton's method on a mesh that is too coarse
-constexpr double enough = 1e-9; // of a correction's length
+constexpr double first_length = 0.05, largest_length = 0.5, shortest_length = 1e-5; // lengths of weighted()
+constexpr int slow = 5;               // iterations of Newton's method on a mesh that is too coarse
+constexpr double small_enough = 1e-9; // of a correction's length
 
 // J and the slopes of both keys in one matrix, (2N + 2) x (2N + 4).
 Matrix derivatives(SteadySystem &system, const Vector &unknowns, const SteadySystem::Linearisation &linear,
@@ -39,7 +39,7 @@ Vector joined(const FoldPoint &point) {
 FoldCurve::FoldCurve(SteadySystem &system, KeyPath key, KeyPath second, FoldPoint start,
                      const Vector &null_vector, const Vector &tangent)
     : system_(&system), key_(std::move(key)), second_(std::move(second)), point_(std::move(start)),
-      null_vector_(null_vector.normalized()), step_(first_step) {
+      null_vector_(null_vector.normalized()), step_(first_length) {
   set_parameters(point_.part, point_.second_part);
   system_->fit_tube(point_.unknowns);
   const SteadySystem::Linearisation linear = system_->linearise(point_.unknowns);
@@ -122,7 +122,7 @@ FoldCurve::Corrected FoldCurve::corrected(FoldPoint now, const Vector &row, doub
     now.unknowns += change.head(m);
     now.part += change[m];
     now.second_part += change[m + 1];
-    if (length * std::min(ratio, 1.0) < enough) {
+    if (length * std::min(ratio, 1.0) < small_enough) {
       Vector tangent = factors->solve(Vector(Vector::Unit(m + 2, m + 1)));
       tangent /= std::sqrt(weighted(tangent, tangent));
       result.tangent = weighted(tangent, direction) < 0 ? Vector(-tangent) : tangent;
@@ -158,13 +158,13 @@ void FoldCurve::advance() {
   constexpr double intended = 3e-3; // first correction
   constexpr double straight = 0.9;  // cosine between neighbouring tangents
   const Vector bend = curvature();
-  take_step(step_, smallest_step, [&] {
+  take_step(step_, shortest_length, [&] {
     Corrected next = correct(point_, tangent_, step_, bend);
     if (!(weighted(next.tangent, tangent_) > straight))
       return false;
     const double factor = std::clamp(std::cbrt(intended / next.first_correction), 0.5, 2.0);
     accept(std::move(next));
-    step_ = std::min(factor * step_, largest_step);
+    step_ = std::min(factor * step_, largest_length);
     return true;
   });
 }

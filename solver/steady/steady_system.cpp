@@ -15,7 +15,7 @@
 namespace capsule {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Beyond the tips: the disturbance has fallen to 1e-9 there.
 constexpr double wall_beyond = 4.7;
 // A capsule fills the tube in a weak flow, and grows without bound in too strong a one.
