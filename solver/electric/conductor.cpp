@@ -34,24 +34,6 @@ double distance_from(double centre_x, const Curve &cap) {
   return std::hypot(cap.x[0] - centre_x, cap.r[0]);
 }
 
-// The curve's points as targets on it; their gap to the nearest point, themselves, is that of the self rule.
-Targets on_itself(const Curve &curve, const Panels &along, const SelfRule &self) {
-  const Eigen::Index p = along.rule.size();
-  const Matrix slopes = derivative_matrix(along.rule.nodes);
-  Targets points{curve.x, curve.r, Vector(curve.size()), Vector(curve.size())};
-  for (Eigen::Index k = 0; k < along.count(); ++k) {
-    const double half = (along.edges[k + 1] - along.edges[k]) / 2;
-    points.bend_x.segment(k * p, p) = slopes * curve.x_zeta.segment(k * p, p) / half;
-    points.bend_r.segment(k * p, p) = slopes * curve.r_zeta.segment(k * p, p) / half;
-  }
-  for (Eigen::Index i = 0; i < curve.size(); ++i) {
-    const double half_gap = self.sites[static_cast<std::size_t>(i)].gap / 2;
-    points.bend_x[i] *= half_gap;
-    points.bend_r[i] *= half_gap;
-  }
-  return points;
-}
-
 Targets joined(const Targets &first, const Targets &second) {
   Targets both{Vector(first.size() + second.size()), Vector(first.size() + second.size())};
   both.x << first.x, second.x;
@@ -106,7 +88,7 @@ Conductor::Conductor(const Pore &pore, const FlowResolution &resolution)
 
   const Eigen::Index n = wall.size();
   const NearRule near(wall.panel_points, tolerance_);
-  const SelfRule self = make_self_rule(along, along.points, 0); // the curvature jumps at the lip
+  const SelfRule self = self_rule_of_wall(along);
   RowMatrix on_wall;
   assemble_layer(ring_dipole, on_itself(wall, along, self), wall, &self, near, on_wall);
   RowMatrix matrix(n + 1, n + 1);

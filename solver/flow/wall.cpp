@@ -70,6 +70,27 @@ Curve wall_curve(const Pore &pore, const Panels &along) {
   return wall;
 }
 
+SelfRule self_rule_of_wall(const Panels &along) {
+  return make_self_rule(along, along.points, 0); // the curvature jumps at the lip
+}
+
+Targets on_itself(const Curve &wall, const Panels &along, const SelfRule &self) {
+  const Eigen::Index p = along.rule.size();
+  const Matrix slopes = derivative_matrix(along.rule.nodes);
+  Targets points{wall.x, wall.r, Vector(wall.size()), Vector(wall.size())};
+  for (Eigen::Index k = 0; k < along.count(); ++k) {
+    const double half = (along.edges[k + 1] - along.edges[k]) / 2;
+    points.bend_x.segment(k * p, p) = slopes * wall.x_zeta.segment(k * p, p) / half;
+    points.bend_r.segment(k * p, p) = slopes * wall.r_zeta.segment(k * p, p) / half;
+  }
+  for (Eigen::Index i = 0; i < wall.size(); ++i) {
+    const double half_gap = self.sites[static_cast<std::size_t>(i)].gap / 2;
+    points.bend_x[i] *= half_gap;
+    points.bend_r[i] *= half_gap;
+  }
+  return points;
+}
+
 Wall::Wall(const Pore &pore, const FlowResolution &resolution)
     : panels_(wall_panels(pore, resolution)), curve_(wall_curve(pore, panels_)),
       near_tolerance_(resolution.near_tolerance),
@@ -101,10 +122,10 @@ Wall::Wall(const Wall &whole, const Vector &edges)
 }
 
 // C of (3.1): velocity at points, 2 n, from tractions of the wall and P'.
-RowMatrix Wall::response(const Targets &points) const {
+RowMatrix Wall::response(const Targets &points, const SelfRule *self) const {
   const Eigen::Index n = curve_.size();
   RowMatrix wall;
-  assemble_layer(ring_stokeslet, points, curve_, nullptr, near_, wall);
+  assemble_layer(ring_stokeslet, points, curve_, self, near_, wall);
   RowMatrix response(wall.rows(), 2 * n + 1);
   response.leftCols(n) = stokeslet_factor * wall.leftCols(n);
   response.col(n) = outlet_.column(outlet_.single_layer(points));
@@ -115,7 +136,8 @@ RowMatrix Wall::response(const Targets &points) const {
 // A of (3.1).
 RowMatrix Wall::matrix() const {
   const Eigen::Index n = curve_.size();
-  const RowMatrix at_wall = response({curve_.x, curve_.r});
+  const SelfRule self = self_rule_of_wall(panels_);
+  const RowMatrix at_wall = response(on_itself(curve_, panels_, self), &self);
   RowMatrix matrix(2 * n + 1, 2 * n + 1);
   matrix.topRows(n) = at_wall.topRows(n);
   matrix.row(n) = outlet_.row_weights.transpose() * response(outlet_.row_points);

@@ -15,6 +15,9 @@ namespace capsule {
 // Panels by arc length from the outlet to the entrance, and the wall at their points, with the normal into the liquid.
 Panels wall_panels(const Pore &pore, const FlowResolution &resolution);
 Curve wall_curve(const Pore &pore, const Panels &along);
+// Where its points lie on it, and they as targets; their gap to the nearest point, themselves, is that of the rule.
+SelfRule self_rule_of_wall(const Panels &along);
+Targets on_itself(const Curve &wall, const Panels &along, const SelfRule &self);
 
 class Wall {
 public:
@@ -53,7 +56,7 @@ public:
   Matrix base_traction() const;
 
 private:
-  RowMatrix response(const Targets &points) const;
+  RowMatrix response(const Targets &points, const SelfRule *self = nullptr) const;
   RowMatrix matrix() const;
   void solve_base_flow();
 
