@@ -337,6 +337,7 @@ std::string outlet_remark(const std::vector<RunResult> &results) {
 std::string wrinkle_remark(const std::vector<RunResult> &results) {
   std::size_t runs = 0;
   double most = 0, from = std::numeric_limits<double>::infinity(), to = -from;
+  bool estimated = false;
   for (const RunResult &result : results) {
     if (!result.summary || !fs::exists(result.directory / "series.csv"))
       continue;
@@ -351,13 +352,18 @@ std::string wrinkle_remark(const std::vector<RunResult> &results) {
         to = std::max(to, x_g[row]);
       }
     runs += has_wrinkled ? 1 : 0;
+    estimated |= has_wrinkled && !result.summary->error_estimate.empty();
   }
   if (runs == 0)
     return "";
   return fmt::format(
-      "the membrane wrinkled{}: up to {:.0f} dents between x_g = {:.4g} and {:.4g}; a larger {} smooths it",
+      "the membrane wrinkled{}: up to {:.0f} dents {}; a larger {} smooths it{}",
       results.size() == 1 ? "" : fmt::format(" in {} of {}", runs, counted(results.size(), "run")), most,
-      from, to, bending_key);
+      from < to ? fmt::format("between x_g = {:.4g} and {:.4g}", from, to)
+                : fmt::format("at x_g = {:.4g}", from),
+      bending_key,
+      estimated ? "; small disturbances decide when it wrinkles, and errors there may exceed their estimates"
+                : "");
 }
 
 } // namespace capsule

@@ -27,8 +27,8 @@ std::string unsteady_remark(const std::vector<RunResult> &results);
 // the tube is near: the outlet is taken for a Poiseuille flow, and both marches of an estimate err alike. Empty if none does.
 std::string outlet_remark(const std::vector<RunResult> &results);
 
-// One line about marches in which the membrane wrinkled, with at least three dents at once, from where to where. Empty if none
-// did. Throws as read_columns (base/csv.hpp).
+// One line about marches in which the membrane wrinkled, with at least three dents at once, from where to where, and that
+// their error estimates are no bounds there. Empty if none did. Throws as read_columns (base/csv.hpp).
 std::string wrinkle_remark(const std::vector<RunResult> &results);
 
 } // namespace capsule

@@ -85,11 +85,16 @@ BOOST_AUTO_TEST_CASE(routes_that_part_at_the_outlet_are_remarked) {
 
 BOOST_AUTO_TEST_CASE(wrinkles_on_the_way_are_remarked) {
   const TemporaryDirectory directory;
-  const RunResult result{{}, directory.path, Summary{}};
+  RunResult result{{}, directory.path, Summary{}};
   BOOST_TEST(wrinkle_remark({result}) == ""); // no series
   std::ofstream(directory.path / "series.csv") << "x_g,dents\n1.5,2\n1.55,3\n2,4\n2.05,2\n";
   BOOST_TEST(wrinkle_remark({result}).find("up to 4 dents between x_g = 1.55 and 2;") != std::string::npos);
   BOOST_TEST(wrinkle_remark({result, {{}, "", Summary{}}}).find("in 1 of 2 runs") != std::string::npos);
+  BOOST_TEST(wrinkle_remark({result}).find("estimates") == std::string::npos); // there are none
+  result.summary->error_estimate = {{"v_g", 1e-4}};
+  BOOST_TEST(wrinkle_remark({result}).find("errors there may exceed their estimates") != std::string::npos);
+  std::ofstream(directory.path / "series.csv") << "x_g,dents\n1.5,2\n1.55,3\n";
+  BOOST_TEST(wrinkle_remark({result}).find("up to 3 dents at x_g = 1.55;") != std::string::npos);
   std::ofstream(directory.path / "series.csv") << "x_g,dents\n1.5,2\n";
   BOOST_TEST(wrinkle_remark({result}) == "");
 }
