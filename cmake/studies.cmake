@@ -6,7 +6,7 @@
 #                     all of them: atlas; `studies` builds the programs of all of them and runs none
 # A study.cpp that rows of tables/published.csv speak of leaves its numbers in results/<id>/summary.json: target and test
 # ledger wait for it.
-add_library(study EXCLUDE_FROM_ALL validation/study.cpp validation/steady_folds.cpp)
+add_library(study EXCLUDE_FROM_ALL validation/study.cpp validation/steady_folds.cpp validation/estimates.cpp)
 target_include_directories(study PUBLIC validation)
 target_link_libraries(study PUBLIC solver PRIVATE warnings)
 

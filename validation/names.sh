@@ -46,7 +46,7 @@ mkdir -p validation/counted validation/compared
 cp "elsewhere (it's)/case.toml" validation/compared
 cp cases/small/figure.gp validation/compared
 echo 'int main() { return 1; }' >validation/counted/study.cpp
-echo 'int nothing;' | tee validation/study.cpp >validation/steady_folds.cpp
+echo 'int nothing;' | tee validation/study.cpp validation/estimates.cpp >validation/steady_folds.cpp
 echo 'eval figure("line", 4, 4); plot x; print "**A line.**"' >validation/counted/figure.gp
 unusable() { # PATTERN NAME...: names that the pattern's rule refuses
   rule=$1

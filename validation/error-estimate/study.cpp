@@ -1,5 +1,5 @@
 // Does error_estimate bound the error, and not by too much? Capsules of many kinds against refined runs.
-#include "study.hpp"
+#include "estimates.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
 #include "scene/resolution.hpp"
@@ -92,45 +92,8 @@ RunInput refined(const RunInput &run) {
   return fine;
 }
 
-// What is known of one quantity of one run: its error lies within `floor` of `difference`, because the refined value has
-// an error of its own.
-struct Verdict {
-  double difference, floor, estimate;
-  bool determined() const { return difference > 2 * floor; }
-  bool bounds() const { return difference - floor <= estimate; }
-  bool is_sharp() const { return estimate <= 30 * (difference + floor); }
-};
-
 // So many capsules at least are to have all their largest errors along the way estimated well.
 constexpr int claimed = 10;
-
-bool is_of_the_way(const std::string &quantity) {
-  return quantity.ends_with("@x_g");
-}
-
-// The error that an estimate speaks of: the largest of all rows, of those around the peak, or of the last ones, and of
-// the value that summary.json reports. The time adds up along the way.
-double error_of(const std::string &quantity, const Case &physics, const StudyRun &run,
-                const StudyRun &exact) {
-  const double first_x_g = physics.capsule.start_x, last_x_g = physics.until.x_g.value();
-  if (quantity == "volume_change")
-    return std::abs(run.summary.quantities.at(quantity));
-  const std::string plain = quantity.substr(0, quantity.find('@'));
-  const auto largest = [&](const std::string &name, double from, double to) {
-    return history_difference(run.history, exact.history, name, from, to);
-  };
-  if (is_of_the_way(quantity))
-    return largest(plain, first_x_g, last_x_g);
-  const double of_the_value =
-      std::abs(run.summary.quantities.at(quantity) - exact.summary.quantities.at(quantity));
-  if (quantity == "x_g_at_peak" || quantity.starts_with("transit_"))
-    return of_the_value;
-  if (quantity == "peak_pressure_drop") {
-    const double peak = exact.summary.quantities.at("x_g_at_peak");
-    return std::max(of_the_value, largest("pressure_drop", peak - 0.5, peak + 0.5));
-  }
-  return std::max(of_the_value, largest(quantity, quantity == "time" ? first_x_g : last_x_g - 2, last_x_g));
-}
 
 bool study(const std::string &directory, unsigned jobs) {
   std::vector<RunInput> inputs;
@@ -169,11 +132,10 @@ bool study(const std::string &directory, unsigned jobs) {
       missing += fmt::format("{}: {:.1f} times the accuracy asked for\n", name_of(capsule), used);
     const int not_good_before = ways.too_small + ways.too_large;
     for (const auto &[quantity, estimate] : summary.error_estimate) {
-      if (quantity == "x_g" || quantity.starts_with("x_g@")) // where rows are taken
+      if (is_a_place(quantity))
         continue;
-      const double floor = quantity == "volume_change" ? 0 : exact.error_estimate.at(quantity);
       const double value = summary.quantities.at(quantity.substr(0, quantity.find('@')));
-      const Verdict verdict{error_of(quantity, physics, runs[2 * k], runs[2 * k + 1]), floor, estimate};
+      const Verdict verdict = verdict_of(quantity, physics, runs[2 * k], runs[2 * k + 1]);
       const char *const word = !verdict.bounds()     ? "too small"
                                : !verdict.is_sharp() ? "more than 30 times"
                                                      : "";
@@ -186,11 +148,11 @@ bool study(const std::string &directory, unsigned jobs) {
             fmt::format("{}, accuracy {:.0e}, {}: error {:.1e}, estimate {:.1e}, {}\n", name_of(capsule),
                         capsule.accuracy, quantity, verdict.difference, estimate, word);
       table.add(fmt::format("{},{:.0e},{},{:.9g},{:.3e},{:.3e},{:.3e},{:d},{:d}", name_of(capsule),
-                            capsule.accuracy, quantity, value, verdict.difference, floor, estimate,
+                            capsule.accuracy, quantity, value, verdict.difference, verdict.floor, estimate,
                             verdict.determined(), *word == '\0'));
       markdown += fmt::format("| {} | {:.0e} | {} | {:.1e}{} | {:.1e} | {:.2g} | {} |\n", name_of(capsule),
                               capsule.accuracy, quantity, verdict.difference,
-                              verdict.determined() ? "" : fmt::format(" ± {:.1e}", floor), estimate,
+                              verdict.determined() ? "" : fmt::format(" ± {:.1e}", verdict.floor), estimate,
                               estimate / verdict.difference, word);
     }
     good_capsules += ways.too_small + ways.too_large == not_good_before ? 1 : 0;

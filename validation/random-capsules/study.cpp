@@ -2,16 +2,15 @@
 // in the same state?
 #include "study.hpp"
 #include "base/atomic_file.hpp"
-#include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
 #include "motion/motion.hpp"
 #include "motion/to_rest.hpp"
+#include "random_case.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <random>
 
 using namespace capsule;
 
@@ -21,31 +20,11 @@ constexpr int capsules = 200;
 constexpr int marched_every = 5;       // of the capsules
 constexpr double allowed_apart = 1e-3; // march and steady state, relative, in speed and pressure drop
 
-// Numbers that are the same with any library.
-class Sample {
-public:
-  double between(double low, double high) { return low + (high - low) * uniform(); }
-  double log_between(double low, double high) { return low * std::pow(high / low, uniform()); }
-  bool coin() { return uniform() < 0.5; }
-
-private:
-  double uniform() { return std::ldexp(static_cast<double>(random_() >> 11), -53); }
-  std::mt19937_64 random_{20261130};
-};
-
 std::vector<Case> sample() {
-  Sample of;
+  Sample of(20261130);
   std::vector<Case> cases(capsules);
-  for (Case &c : cases) {
-    c.capsule.radius = of.between(0.3, 1.3);
-    c.capsule.aspect_ratio = of.log_between(0.28, 2.5);
-    c.flow.capillary_number = of.log_between(1e-3, 0.3);
-    c.membrane.bending_ratio = of.log_between(1e-6, 1e-2);
-    const bool is_skalak = of.coin(), resists_area = of.coin();
-    const double dilatation = of.log_between(0.1, 100);
-    if (is_skalak)
-      c.membrane.law = {skalak, {resists_area ? dilatation : 0}};
-  }
+  for (Case &c : cases)
+    c = random_capsule(of);
   return cases;
 }
 
