@@ -53,10 +53,8 @@ FoldSearch find_fold(const Case &physics, const SteadyState &start, const std::s
     } else if (branch.wants_a_finer_mesh()) {
       search.end = "mesh";
       break;
-    } else if (now.parameter >= 1) {
+    } else if (now.parameter >= 1)
       search.end = "end of the path";
-      now = branch.at_parameter(1);
-    }
     good = now;
     search.state.unknowns = now.unknowns;
     if (search.end.empty() && search.state.system->largest_stretch(search.state.unknowns) > most_stretch)

@@ -110,7 +110,7 @@ public:
     branch_->require_stiffness(1);
     part_ = branch_->point().parameter;
     if (part_ >= 1 || part_ <= 0) {
-      outcome().branch.push_back(record(branch_->at_parameter(part_ >= 1 ? 1 : 0), true));
+      outcome().branch.push_back(record_point(true));
       if (part_ <= 0)
         throw NumericsFailure(
             failure_kind::fold,

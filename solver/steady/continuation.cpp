@@ -42,8 +42,8 @@ Branch::Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vect
                const Steps &steps, Trend trend, Control control)
     : system_(&system), path_(std::move(path)), control_(std::move(control)), point_(std::move(start)),
       steps_(steps), step_(steps.first), trend_(trend), trend_before_(trend) {
-  const Corrected first = correct(point_, direction / std::sqrt(weighted(direction, direction)), 0,
-                                  position_tolerance, Vector::Zero(direction.size()), {});
+  const Vector row = row_across(direction / std::sqrt(weighted(direction, direction)));
+  const Corrected first = correct(point_, row, 0, position_tolerance, Vector::Zero(direction.size()), {});
   point_ = first.point;
   tangent_ = first.tangent;
   slopes_ = first.slopes;
@@ -89,17 +89,15 @@ Vector Branch::slope_in_parameter(const BranchPoint &at, const SteadySystem::Lin
   return path_.slope(at.parameter) * slopes(*system_, at.unknowns, linear, std::span(&path_.key(), 1)).col(0);
 }
 
-// The point at a length `step` along the tangent, from a guess that bends away from it. Corrections begin with the slopes at
-// a point nearby, if there are any. Where they have come to an end, or do not shrink, they go on with those at the place that
+// The point whose way from here has a given product with a row, from a guess. Corrections begin with the slopes at a point
+// nearby, if there are any. Where they have come to an end, or do not shrink, they go on with those at the place that
 // they have led to, until the first one with new slopes is small enough.
-Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent, double step,
-                                  double tolerance, const Vector &way_to_guess,
-                                  std::optional<Slopes> slopes) const {
+Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &row, double length, double tolerance,
+                                  const Vector &way_to_guess, std::optional<Slopes> slopes) const {
   constexpr int most_linearisations = 6;
   constexpr int most_kept = 12; // corrections with the same matrix
   constexpr double fast = 0.7;  // ratio of corrections for which a matrix is kept
   const Eigen::Index m = from.unknowns.size();
-  const Vector row = row_across(tangent);
   const double enough = tolerance * std::sqrt(weight_);
   const BranchPoint guess{from.unknowns + way_to_guess.head(m), from.parameter + way_to_guess[m]};
   BranchPoint now = guess;
@@ -112,7 +110,7 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
   };
   const auto correction = [&](const Vector &residual) {
     Vector all(m + 1);
-    all << residual, row.dot(way(from, now)) - step;
+    all << residual, row.dot(way(from, now)) - length;
     return corrections->next(all);
   };
   const auto place = [&] {
@@ -136,9 +134,9 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
     for (int k = 0; corrections && k < most_kept; ++k) {
       spend(control_, work_of_residual, static_cast<double>(system_->nodes()));
       const Vector change = correction(system_->residual(now.unknowns));
-      const double length = std::sqrt(weighted(change, change)), ratio = length / before;
+      const double moved = std::sqrt(weighted(change, change)), ratio = moved / before;
       if (k == 0 && count == 1)
-        contraction = length / after_linearisation;
+        contraction = moved / after_linearisation;
       if (k > 0 && !(ratio < fast)) {
         if (k == 1 && count == 0) { // the slopes are of too far away
           now = guess;
@@ -147,9 +145,9 @@ Branch::Corrected Branch::correct(const BranchPoint &from, const Vector &tangent
         break;
       }
       move(change);
-      if (length * (k == 0 ? 1 : ratio) < enough)
+      if (moved * (k == 0 ? 1 : ratio) < enough)
         break;
-      before = length;
+      before = moved;
     }
     spend(control_, 1, static_cast<double>(system_->nodes()));
     slopes = Slopes{system_->linearise(now.unknowns), {}};
@@ -180,16 +178,61 @@ Vector Branch::way_to_guess(double step) const {
          step * step * step / length * (2 * by_points - by_tangents);
 }
 
-void Branch::advance() {
+// The nearest of these parameters on the way to another one.
+std::optional<double> Branch::first_passed(std::span<const double> stops, double parameter) const {
+  std::optional<double> first;
+  for (const double stop : stops) {
+    const double part = (stop - point_.parameter) / (parameter - point_.parameter);
+    if (part > 0 && part <= 1 &&
+        (!first || std::abs(stop - point_.parameter) < std::abs(*first - point_.parameter)))
+      first = stop;
+  }
+  return first;
+}
+
+// The way to the guess at a parameter before the next step's end or shortly behind it.
+Vector Branch::way_to_stop(double stop) const {
+  const double change = stop - point_.parameter;
+  const auto beyond = [&](double step) {
+    const Vector guess = way_to_guess(step);
+    return guess[guess.size() - 1] / change - 1;
+  };
+  double step = step_;
+  if (const double at_end = beyond(step_); at_end > 0) {
+    std::uintmax_t evaluations = 30;
+    const auto found = boost::math::tools::toms748_solve(
+        beyond, 0.0, step_, -1.0, at_end, boost::math::tools::eps_tolerance<double>(30), evaluations);
+    step = (found.first + found.second) / 2;
+  }
+  Vector guess = way_to_guess(step);
+  guess[guess.size() - 1] = change;
+  return guess;
+}
+
+void Branch::advance(std::span<const double> stops) {
   constexpr double straight = 0.85; // cosine between neighbouring tangents
   balance();
+  const Eigen::Index m = point_.unknowns.size();
   take_step(step_, smallest_step, [&] {
-    const Vector guess = way_to_guess(step_);
-    Corrected next = correct(point_, tangent_, step_, steps_.tolerance, guess, slopes_);
-    const Vector miss = way(point_, next.point) - guess;
+    Vector guess = way_to_guess(step_);
+    Corrected next;
+    std::optional<double> stop = first_passed(stops, point_.parameter + guess[m]);
+    if (!stop) {
+      next = correct(point_, row_across(tangent_), step_, steps_.tolerance, guess, slopes_);
+      stop = first_passed(stops, next.point.parameter);
+    }
+    if (stop) {
+      guess = way_to_stop(*stop);
+      const double change = guess[m];
+      next = correct(point_, std::copysign(1.0, change) * Vector::Unit(m + 1, m), std::abs(change),
+                     steps_.tolerance, guess, slopes_);
+      next.point.parameter = *stop;
+    }
+    const Vector taken = way(point_, next.point), miss = taken - guess;
     if (!(weighted(next.tangent, tangent_) > straight) ||
         std::sqrt(weighted(miss, miss)) > steps_.largest_miss * step_)
       return false;
+    const double next_step = step_factor(next.contraction) * weighted(taken, tangent_);
     oldest_ = before_;
     before_ = point_;
     tangent_before_ = tangent_;
@@ -199,24 +242,9 @@ void Branch::advance() {
     slopes_ = std::move(next.slopes);
     trend_before_ = trend_;
     trend_ = point_.parameter < before_.parameter ? Trend::falls : Trend::grows;
-    step_ = std::min(step_factor(next.contraction) * step_, steps_.largest);
+    step_ = std::min(stop ? std::max(step_, next_step) : next_step, steps_.largest);
     return true;
   });
-}
-
-// From a guess on the cubic through the last two points, by the slopes at the last one while they do.
-BranchPoint Branch::at_parameter(double parameter) const {
-  const Eigen::Index m = point_.unknowns.size();
-  const auto beyond = [&](double step) { return point_.parameter + way_to_guess(step)[m] - parameter; };
-  const double first = -weighted(way(before_, point_), tangent_);
-  std::uintmax_t evaluations = 30;
-  const auto found = boost::math::tools::toms748_solve(
-      beyond, first, 0.0, before_.parameter - parameter, point_.parameter - parameter,
-      boost::math::tools::eps_tolerance<double>(30), evaluations);
-  system_->set_parameters(path_.at(parameter));
-  return {solve_steady(*system_, point_.unknowns + way_to_guess((found.first + found.second) / 2).head(m),
-                       slopes_->linear.jacobian.partialPivLu()),
-          parameter};
 }
 
 double Branch::plain_step() const {
@@ -266,10 +294,11 @@ BranchPoint Branch::fold() const {
   const Vector bend_after = bend_towards(point_);
   const Vector bend_before = points_ > 2 ? bend_towards(oldest_) : bend_after;
   constexpr double tolerance = 1e-11; // the slope along the arc is as exact as the point
+  const Vector row = row_across(tangent_before_);
   Slopes nearby = *slopes_;
   const auto at = [&](double step) {
     Corrected found =
-        correct(before_, tangent_before_, step, tolerance,
+        correct(before_, row, step, tolerance,
                 step * tangent_before_ + step * step / 2 * (step < 0 ? bend_before : bend_after), nearby);
     nearby = found.slopes;
     return found;

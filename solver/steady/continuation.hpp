@@ -6,8 +6,10 @@
 #include "case/key_path.hpp"
 #include "observe/outcome.hpp"
 #include "steady/steady_system.hpp"
+#include <array>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace capsule {
 
@@ -21,6 +23,8 @@ struct BranchPoint {
 constexpr double fine_tail = 1e-6; // of a shape, in the last waves (unresolved_part in node_density.hpp)
 bool poorly_resolved(const SteadySystem &system, const Vector &unknowns,
                      double largest_unresolved_part = fine_tail);
+
+constexpr std::array ends_of_path{0.0, 1.0};
 
 class Branch {
 public:
@@ -56,13 +60,12 @@ public:
   const Vector &tangent_before() const { return tangent_before_; }
   Trend trend_before() const { return trend_before_; }
 
-  // To the next point. Throws NumericsFailure when the smallest step fails; the branch stays where it was.
-  void advance();
+  // To the next point: at the first of these parameters that the step would pass, else at the step's end. Throws
+  // NumericsFailure when the smallest step fails; the branch stays where it was.
+  void advance(std::span<const double> stops = ends_of_path);
   bool wants_a_finer_mesh() const {
     return poorly_resolved(*system_, point_.unknowns, steps_.largest_unresolved_part);
   }
-  // The steady state between the last two points at a parameter between theirs.
-  BranchPoint at_parameter(double parameter) const;
   // Throws NumericsFailure if the membrane has softened in the last step, before the parameter came to `end`. It says from
   // which parameter on: behind it states depend on the mesh.
   void require_stiffness(double end) const;
@@ -88,9 +91,11 @@ private:
     // From Newton's first correction to the next one; 0 where the first one was small enough.
     double contraction = 0;
   };
-  Corrected correct(const BranchPoint &from, const Vector &tangent, double step, double tolerance,
+  Corrected correct(const BranchPoint &from, const Vector &row, double length, double tolerance,
                     const Vector &way_to_guess, std::optional<Slopes> slopes) const;
   Vector way_to_guess(double step) const;
+  std::optional<double> first_passed(std::span<const double> stops, double parameter) const;
+  Vector way_to_stop(double stop) const;
   double weighted(const Vector &a, const Vector &b) const;
   double along_tangent_before(const BranchPoint &at) const;
   Vector row_across(const Vector &tangent) const;

@@ -2,6 +2,7 @@
 #include "base/decompositions.hpp"
 #include "base/failure.hpp"
 #include <algorithm>
+#include <array>
 #include <complex>
 #include <vector>
 
@@ -77,7 +78,8 @@ Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns
 // be the one that grows fastest: then all rates are computed.
 Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Linearisation &linear,
                               double viscosity_ratio, Neighbours neighbours) {
-  constexpr Eigen::Index most_vectors = 80;
+  constexpr std::array vectors{40, 80}; // as many as the second where the first show too few rates
+  constexpr std::size_t enough_rates = 10;
   constexpr double converged = 1e-8, visible = 0.1; // relative residuals of an eigenvalue
   const Eigen::Index n2 = 2 * system.nodes();
   const Matrix on_velocity = velocity_operator(linear, viscosity_ratio);
@@ -93,7 +95,7 @@ Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Li
     right.head(n2) = on_velocity * rate;
     return lu_solve(factors, right).head(n2);
   };
-  const Eigen::Index m = std::min(most_vectors, 2 * n2 - size_of_all);
+  const Eigen::Index m = std::min<Eigen::Index>(vectors.back(), 2 * n2 - size_of_all);
   Matrix basis(n2, m + 1);
   Matrix hessenberg = Matrix::Zero(m + 1, m);
   const auto zeta = system.membrane().basis.nodes.array();
@@ -101,7 +103,7 @@ Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Li
   start << (1 / (1.25 - zeta.cos())), (zeta.sin() / (1.25 - (zeta + 0.3).cos()));
   basis.col(0) = inverse(start).normalized();
   Eigen::Index size = 0;
-  while (size < m) {
+  const auto extend = [&] {
     Vector next = inverse(basis.col(size));
     const double length = next.norm();
     for (int again = 0; again < 2; ++again) {
@@ -113,18 +115,27 @@ Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Li
     hessenberg(size + 1, size) = rest;
     ++size;
     if (rest < 1e-14 * length) // the space is invariant: all its eigenvalues are exact
-      break;
+      return false;
     basis.col(size) = next / rest;
-  }
-  const EigenPairs eigen = eigenpairs(hessenberg.topLeftCorner(size, size));
+    return true;
+  };
   std::vector<std::complex<double>> rates;
-  for (Eigen::Index k = 0; k < size; ++k) {
-    const std::complex<double> value = eigen.values[k];
-    const double residual = hessenberg(size, size - 1) * std::abs(eigen.vectors(size - 1, k));
-    if (value.real() > 0 && residual < visible * std::abs(value))
-      return all_growth_rates(linear, border, viscosity_ratio);
-    if (residual < converged * std::abs(value))
-      rates.push_back(1.0 / value);
+  bool is_open = true;
+  for (const Eigen::Index most : vectors) {
+    if (rates.size() >= enough_rates || !is_open || size == m)
+      break;
+    while (is_open && size < std::min(most, m))
+      is_open = extend();
+    const EigenPairs eigen = eigenpairs(hessenberg.topLeftCorner(size, size));
+    rates.clear();
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const std::complex<double> value = eigen.values[k];
+      const double residual = hessenberg(size, size - 1) * std::abs(eigen.vectors(size - 1, k));
+      if (value.real() > 0 && residual < visible * std::abs(value))
+        return all_growth_rates(linear, border, viscosity_ratio);
+      if (residual < converged * std::abs(value))
+        rates.push_back(1.0 / value);
+    }
   }
   if (rates.empty())
     throw NumericsFailure(failure_kind::unresolved, "the growth rates do not converge",

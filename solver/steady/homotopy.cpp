@@ -104,7 +104,7 @@ bool Homotopy::follow(const KeyPath &path) {
         (!place_.turned_at.empty() && state_.system->largest_stretch(now.unknowns) > runaway_stretch))
       break;
     if (now.parameter >= 1) {
-      state_.unknowns = branch.at_parameter(1).unknowns;
+      state_.unknowns = now.unknowns;
       return true;
     }
   }

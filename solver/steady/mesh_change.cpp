@@ -41,7 +41,7 @@ void follow(const KeyPath &path, SteadyState &state, const Control &control) {
                             "try a finer mesh.membrane");
     branch.advance();
   }
-  state.unknowns = branch.at_parameter(1).unknowns;
+  state.unknowns = branch.point().unknowns;
 }
 
 } // namespace

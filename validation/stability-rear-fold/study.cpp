@@ -78,7 +78,7 @@ void soften(double from, double to, SteadyState &state) {
       throw NumericsFailure(failure_kind::unresolved, "no way to " + path.text(1), "try a finer mesh");
     branch.advance();
   }
-  state.unknowns = branch.at_parameter(1).unknowns;
+  state.unknowns = branch.point().unknowns;
   state = on_mesh(flat(to), static_cast<int>(state.system->nodes()), state);
 }
 

@@ -36,5 +36,5 @@ eval defaults
 print "**The steady pressure drop and film over size and capillary number.** Contours of", \
   sprintf("%d steady states on branches of growing flow, one for each size (δ = 0.01, dots; lines of equal value as labelled); at %d further points", \
     total("points"), total("without")), \
-  "of the grid of 400 no stable one was reached (neo-Hookean: beyond the folds; Skalak: on this mesh).", \
+  "of the grid of 400 no stable one was reached (neo-Hookean: beyond the folds; Skalak: on 52 nodes).", \
   sprintf("Pressure drops on two meshes are at most %.0e apart; all took %.0f s of one core.", total("pressure_drop_apart"), total("cpu_seconds"))

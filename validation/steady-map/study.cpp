@@ -22,9 +22,12 @@ using namespace capsule;
 namespace {
 
 constexpr int rows = 10, columns = 20; // of each law: sizes, capillary numbers
-constexpr int nodes = 60;
+constexpr int middle = columns / 3;
+constexpr int nodes = 52;
 constexpr double bending_ratio = 1e-2; // softer shells buckle in the weakest flows
-constexpr double allowed = 1e-4;       // relative, of the pressure drop against another mesh
+constexpr auto columns_of_map =
+    "law,radius,capillary_number,pressure_drop,v_g,min_film,max_stretch,growth_rate";
+constexpr double allowed = 1e-4; // relative, of the pressure drop against another mesh
 
 const std::array<MembraneLaw, 2> mapped_laws{MembraneLaw(neo_hookean), MembraneLaw(skalak, {0})};
 
@@ -45,95 +48,121 @@ Case case_at(const MembraneLaw &law, int row, int column) {
   return physics;
 }
 
-// Along the branch from a steady state to a capillary number at its end: through folds, as far as the branch is found and
-// no part is stretched without end. `look` is shown each steady state at a column's capillary number.
-void follow(const Case &from, SteadyState state, double to,
-            const std::function<void(const SteadyState &, int)> &look) {
-  constexpr int most_steps = 50;
-  constexpr double farthest_stretch = 4;
+// Shown each steady state at a column's capillary number, and its linearisation.
+using Look = std::function<void(const SteadyState &, const SteadySystem::Linearisation &, int column)>;
+
+// Along the branch from a steady state to a capillary number, as far as the branch is found and does not turn, the membrane
+// does not soften, and no part is stretched too far: steady states end there, or soon behind it.
+void follow(const Case &from, SteadyState state, double to, const Look &look) {
   constexpr Branch::Steps steps{
-      .first = 0.02, .largest = 0.1, .tolerance = 1e-8, .largest_unresolved_part = 3e-5};
+      .first = 0.1, .largest = 0.4, .tolerance = 1e-6, .largest_unresolved_part = 3e-6};
+  constexpr double farthest_stretch = 2.5;
   const KeyPath path("flow.capillary_number", from, to);
+  std::vector<double> stops;
+  for (int column = 0; column < columns; ++column)
+    stops.push_back(path.part(capillary_number_of(column)));
   try {
     Branch branch(*state.system, path, {state.unknowns, 0}, Branch::upwards(*state.system), steps);
-    for (int step = 0; step < most_steps && branch.point().parameter >= 0 && branch.point().parameter < 1 &&
-                       !branch.wants_a_finer_mesh() &&
-                       state.system->largest_stretch(branch.point().unknowns) < farthest_stretch;
-         ++step) {
-      const double before = branch.point().parameter;
-      branch.advance();
-      const double after = branch.point().parameter;
-      for (int column = 0; column < columns; ++column)
-        if (const double part = path.part(capillary_number_of(column));
-            std::min(before, after) < part && part <= std::max(before, after)) {
-          state.unknowns = branch.at_parameter(part).unknowns;
-          look(state, column);
-        }
+    while (branch.point().parameter < 1 && !branch.turned() && !branch.wants_a_finer_mesh() &&
+           state.system->largest_stretch(branch.point().unknowns) < farthest_stretch) {
+      branch.advance(stops);
+      branch.require_stiffness(1);
+      if (const auto column = std::ranges::find(stops, branch.point().parameter); column != stops.end()) {
+        state.unknowns = branch.point().unknowns;
+        look(state, branch.linearisation(), static_cast<int>(column - stops.begin()));
+      }
     }
   } catch (const NumericsFailure &) { // the branch is not found any further
   }
 }
 
-// One size: lines of the map from the middle capillary number upwards and downwards, as far as there are stable steady
-// states. Where a branch turns twice, the first of two stable ones counts. The last line, "end,...", compares the middle
-// point with another mesh.
-std::string row_of_map(const MembraneLaw &law, int row) {
-  constexpr int middle = columns / 3;
+struct Row {
+  std::string text;
+  std::size_t points = 0; // that were reached
+  double apart = 0;       // relative difference of two meshes
+};
+
+// From a steady state of the row's middle: lines of the map upwards and downwards, as far as there are stable steady states.
+// The strongest flow's is compared with another mesh in some rows, because that costs as much as ten points.
+Row row_of_map(const MembraneLaw &law, int row, const SteadyState &chain) {
+  constexpr int compared = 4; // every fourth row
   const Case start = case_at(law, row, middle);
-  const SteadyState middle_state = on_mesh(start, nodes, find_steady(start, {}, {}));
+  const SteadyState middle_state = on_mesh(start, nodes, chain);
   std::map<int, std::string> lines;
-  const auto look_at = [&](const SteadyState &state, int column) {
-    const SteadyRecord record = record_steady(state, 1);
-    if (record.further.at("growth_rate") < 0 && !lines.contains(column))
-      lines[column] =
-          fmt::format("{},{:.3g},{:.6f},{:.7f},{:.7f},{:.7f},{:.6f},{:.5f}\n", law.law().name, radius_of(row),
-                      capillary_number_of(column), record.row.pressure_drop, record.row.v_g,
-                      record.row.min_film, record.row.max_stretch, record.further.at("growth_rate"));
-    return record.row.pressure_drop;
+  std::pair<int, SteadyState> strongest{0, {}};
+  double pressure = 0;
+  const Gauge gauge = gauge_of(*middle_state.system);
+  const auto look_at = [&](const SteadyState &state, const SteadySystem::Linearisation &linear, int column) {
+    const SteadyRecord record = record_steady(state, linear, gauge, 1);
+    if (!(record.further.at("growth_rate") < 0))
+      return;
+    lines[column] =
+        fmt::format("{},{:.3g},{:.6f},{:.7f},{:.7f},{:.7f},{:.6f},{:.5f}\n", law.law().name, radius_of(row),
+                    capillary_number_of(column), record.row.pressure_drop, record.row.v_g,
+                    record.row.min_film, record.row.max_stretch, record.further.at("growth_rate"));
+    if (column > strongest.first) {
+      strongest = {column, state};
+      pressure = record.row.pressure_drop;
+    }
   };
-  const double pressure = look_at(middle_state, middle);
-  const double finer = record_steady(on_mesh(start, finer_mesh(nodes), middle_state), 1).row.pressure_drop;
+  look_at(middle_state, middle_state.system->linearise(middle_state.unknowns), middle);
   for (const int end : {0, columns - 1})
     follow(start, middle_state, capillary_number_of(end), look_at);
-  std::string text;
+  Row result{.text = "", .points = lines.size()};
+  if (row % compared == 0) {
+    const auto &[column, state] = strongest;
+    const SteadyState finer = on_mesh(case_at(law, row, column), finer_mesh(nodes), state);
+    result.apart = std::abs(record_steady(finer, 1).row.pressure_drop / pressure - 1);
+  }
   for (int column = 0; column < columns; ++column) // gnuplot draws grids: each row as long as the others
-    text += lines.contains(column) ? lines[column]
-                                   : fmt::format("{},{:.3g},{:.6f},NaN,NaN,NaN,NaN,NaN\n", law.law().name,
-                                                 radius_of(row), capillary_number_of(column));
-  return text +
-         fmt::format("end,{},{:.3e},{:.2f}\n", lines.size(), std::abs(finer / pressure - 1), cpu_seconds());
+    result.text += lines.contains(column)
+                       ? lines[column]
+                       : fmt::format("{},{:.3g},{:.6f},NaN,NaN,NaN,NaN,NaN\n", law.law().name, radius_of(row),
+                                     capillary_number_of(column));
+  return result;
+}
+
+// Rows begin on the branch of the middle capillary number along the size. The last line tells the points that were reached,
+// how much two meshes differ, and the CPU time.
+std::string rows_of_map(const MembraneLaw &law) {
+  const Case smallest = case_at(law, 0, middle);
+  const KeyPath path("capsule.radius", smallest, radius_of(rows - 1));
+  std::vector<double> stops;
+  for (int row = 0; row < rows; ++row)
+    stops.push_back(path.part(radius_of(row)));
+  SteadyState state = on_mesh(smallest, nodes, find_steady(smallest, {}, {}));
+  Branch branch(*state.system, path, {state.unknowns, 0}, Branch::upwards(*state.system),
+                {.first = 0.2, .largest = 0.5, .tolerance = 1e-6});
+  std::string text = std::string(columns_of_map) + "\n";
+  std::size_t points = 0;
+  double apart = 0;
+  for (int k = 0; k < rows; ++k) {
+    while (branch.point().parameter < stops[static_cast<std::size_t>(k)])
+      branch.advance(stops);
+    state.unknowns = branch.point().unknowns;
+    const Row row = row_of_map(law, k, state);
+    text += row.text + "\n";
+    points += row.points;
+    apart = std::max(apart, row.apart);
+  }
+  return text + fmt::format("{},{:.3e},{:.2f}", points, apart, cpu_seconds());
 }
 
 bool study(const std::string &directory, unsigned jobs) {
   std::vector<TextTask> tasks;
   for (const MembraneLaw &law : mapped_laws)
-    for (int row = 0; row < rows; ++row)
-      tasks.push_back(
-          {fmt::format("{} {}", law.law().name, row), [&law, row] { return row_of_map(law, row); }});
+    tasks.push_back({law.law().name, [&law] { return rows_of_map(law); }});
   const std::vector<std::string> texts = make_all(directory, jobs, tasks);
 
-  const std::string head = "law,radius,capillary_number,pressure_drop,v_g,min_film,max_stretch,growth_rate";
-  int points = 0, looked_at = 0;
+  int points = 0;
   double worst = 0, seconds = 0;
-  for (const MembraneLaw &law : mapped_laws) {
-    std::string file = head + "\n";
-    for (int row = 0; row < rows; ++row) {
-      const std::string &text = texts[static_cast<std::size_t>(looked_at++)];
-      const std::size_t end = text.rfind("end,");
-      file += text.substr(0, end);
-      std::istringstream cells(text.substr(end + 4));
-      int found = 0;
-      double difference = 0, spent = 0;
-      char comma = 0;
-      cells >> found >> comma >> difference >> comma >> spent;
-      file += "\n";
-      points += found;
-      worst = std::max(worst, difference);
-      seconds += spent;
-      if (found < columns)
-        fmt::print("{} R = {:.2f}: {} of {} points\n", law.law().name, radius_of(row), found, columns);
-    }
-    write_atomically(directory + "/" + law.law().name + ".csv", file);
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const std::size_t end = texts[k].rfind('\n') + 1;
+    const Rows sums("points,apart,seconds", texts[k].substr(end));
+    points += static_cast<int>(sums.value(0, "points"));
+    worst = std::max(worst, sums.value(0, "apart"));
+    seconds += sums.value(0, "seconds");
+    write_atomically(directory + "/" + tasks[k].name + ".csv", texts[k].substr(0, end));
   }
   Table summary("points,without,pressure_drop_apart,cpu_seconds");
   summary.add(fmt::format("{},{},{:.3e},{:.1f}", points, 2 * rows * columns - points, worst, seconds));
