@@ -57,6 +57,22 @@ said=$(sed -n "s/.*fold at $key = \([0-9.]*\);.*/\1/p" log)
 near "$said" "$fold" "$(awk -v f="$fold" 'BEGIN { print 1e-4 * f }')" 'the fold'
 ends 0 steady case.toml --out below --set $key="$(awk -v f="$fold" 'BEGIN { print 0.998 * f }')"
 
+# The fold followed to a stiffer membrane ends at the fold of that one's own branch.
+stiffer=membrane.bending_ratio
+ends 0 branch case.toml --along $key --to 0.3 --fold-along $stiffer --fold-to 0.02 --out curve
+ends 0 branch case.toml --set $stiffer=0.02 --along $key --to 0.3 --out stiffer
+cmp folded/branch.csv curve/branch.csv || fail 'a branch whose fold is followed is another one'
+[ "$(head -n 1 curve/fold_curve.csv | cut -d, -f1,2)" = $stiffer,$key ] || fail 'the columns of the fold'
+awk -F, 'NR == 2' curve/fold_curve.csv | grep -q '^0.01,' || fail 'the fold does not begin at the membrane of the case'
+near "$(awk -F, 'NR == 2 { print $2 }' curve/fold_curve.csv)" "$fold" 1e-7 'the fold where it begins'
+near "$(awk -F, 'END { print $2 }' curve/fold_curve.csv)" "$(of stiffer $key)" 1e-6 'the fold of a stiffer membrane'
+near "$(awk -F, 'END { print $NF }' curve/fold_curve.csv)" 0 1e-3 'the growth rate at a fold'
+ends 3 branch case.toml --along $key --to 0.101 --fold-along $stiffer --fold-to 0.02 --out no-curve
+grep -q 'no fold on the way' log || fail 'there is nothing to follow'
+ends 2 branch case.toml --along $key --to 0.3 --fold-along $key --fold-to 0.02 --out no-curve
+ends 2 branch case.toml --along $key --to 0.3 --fold-along membrane.bending_rato --fold-to 0.02 --out no-curve
+grep -q "did you mean '$stiffer'" log || fail 'nothing is suggested'
+
 # The same branch in physical units: eps = 0.1 at 10 nl/s.
 cat >physical.toml <<'TOML'
 accuracy = 1e-3

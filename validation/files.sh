@@ -24,6 +24,7 @@ sed '/physical/,$d' case.toml >branch.toml
 printf '[capsule]\nradius = 0.5\n[flow]\ncapillary_number = 0.05\n' >>branch.toml
 ends 0 branch branch.toml --along flow.capillary_number --to 0.051 --out branch
 ends 0 branch case.toml --along physical.flow_rate --to '0.11 nl/s' --out units
+ends 3 branch branch.toml --along flow.capillary_number --to 0.051 --fold-along capsule.radius --fold-to 0.51 --out fold
 ends 0 steady branch.toml --set flow.period=2 --set output.resistance=false --out train
 ends 0 run branch.toml --set until.time=0.1 --set "capsule.start_x=[-2, -4]" --set output.resistance=false --out pair
 grep -Eq '  x_g -[0-9.]+  v_g [0-9.]+  x_g#2 -[0-9.]+  v_g#2 [0-9.]+  pressure drop' log || fail 'the second capsule is not told'
@@ -36,7 +37,7 @@ for start in -1.3 -1.4 -1.5 -1.6 -1.7; do
   [ "$(cut -d, -f1,2 start/profiles.csv | uniq | wc -l)" -eq 3 ] || fail "the profile at the start, $start, stands there twice"
 done
 missing=0
-for word in $(ls run branch units pair | sed '/:$/d; s/_000[1-9]/_0000/' | sort -u) \
+for word in $(ls run branch units fold pair | sed '/:$/d; s/_000[1-9]/_0000/' | sort -u) \
   $(cat */series.csv */profiles.csv */branch.csv | grep '^[a-z]' | tr ',' '\n' | sort -u) \
   $(sed -n 's/^  "\([a-z_]*\)": .*/\1/p' */summary.json | sort -u); do
   case $word in flow.*) continue ;; esac # the key that varies
@@ -45,7 +46,7 @@ done
 [ "$missing" -eq 0 ] || exit 1
 # The other way round: the names in the first column of its tables.
 for word in $(sed -n 's/^| \(`[^|]*`\) .*|.*|$/\1/p' "$notes" | grep -o '`[a-z_A-Z0-9.]*`' | tr -d '`'); do
-  ls run branch units pair | grep -qxF "$word" || grep -qwF "$word" */*.csv */summary.json || [ "$word" = checkpoint.json ] ||
+  ls run branch units fold pair | grep -qxF "$word" || grep -qwF "$word" */*.csv */summary.json || [ "$word" = checkpoint.json ] ||
     fail "paper-notes/files.md speaks of '$word', which nothing leaves"
 done
 echo 'the notes speak of what runs leave'

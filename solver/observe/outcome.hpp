@@ -46,6 +46,12 @@ struct BranchRow {
   double growth_rate = 0; // of the least stable small motion
 };
 
+// A fold that is followed along a second key: where it is, and the key's value there.
+struct FoldRow {
+  double second = 0;
+  BranchRow fold;
+};
+
 struct Outcome {
   Status status = Status::failed;
   std::string failure; // NumericsFailure::kind, empty when nothing failed
@@ -62,6 +68,9 @@ struct Outcome {
   std::string along = {};
   std::vector<BranchRow> branch = {};
   std::vector<BranchRow> folds = {};
+  // Of a branch whose last fold is followed: the second key, and the fold along it.
+  std::string fold_along = {};
+  std::vector<FoldRow> fold_curve = {};
 };
 
 // How the caller of a run follows it and interrupts it.

@@ -129,6 +129,8 @@ void write_results(const fs::path &directory, const Case &physics, const Outcome
   }
   if (!outcome.along.empty())
     files.emplace_back("branch.csv", branch_csv(outcome));
+  if (!outcome.fold_along.empty())
+    files.emplace_back("fold_curve.csv", fold_curve_csv(outcome));
   if (!outcome.branch.empty() && has_physical(physics))
     files.emplace_back("branch_physical.csv", physical_branch_csv(physics, outcome));
   if (const auto pore = task.motion ? make_pore(physics.pore) : std::nullopt)

@@ -115,6 +115,8 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
           entry["physical"][name] = finite_or_null(value);
       json["folds"].push_back(std::move(entry));
     }
+    if (!outcome.fold_along.empty())
+      json["fold_along"] = outcome.fold_along;
   }
   json["error_estimate"] = Json::object();
   for (const auto &[quantity, error] : outcome.error_estimate)

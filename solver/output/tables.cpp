@@ -35,6 +35,30 @@ std::string csv_of(const std::vector<Column> &columns, const std::vector<SeriesR
   return text;
 }
 
+std::vector<ReportedQuantity> reported_on_branch(const Outcome &outcome) {
+  std::vector<ReportedQuantity> quantities = branch_quantities();
+  std::erase_if(quantities, [&](const ReportedQuantity &quantity) {
+    return !is_reported(quantity, outcome.branch.empty() ? SeriesRow{} : outcome.branch.front().row);
+  });
+  return quantities;
+}
+
+// The key, the quantities and the growth rate.
+std::vector<std::string> names_on_branch(const Outcome &outcome) {
+  std::vector<std::string> names{outcome.along};
+  std::ranges::transform(reported_on_branch(outcome), std::back_inserter(names), &ReportedQuantity::name);
+  names.emplace_back("growth_rate");
+  return names;
+}
+
+std::vector<std::string> fields_on_branch(const Outcome &outcome, const BranchRow &point) {
+  std::vector<std::string> fields{number_text(point.parameter)};
+  for (const ReportedQuantity &quantity : reported_on_branch(outcome))
+    fields.push_back(number_text(point.row.*quantity.value));
+  fields.push_back(number_text(point.growth_rate));
+  return fields;
+}
+
 } // namespace
 
 std::string series_csv(const std::vector<SeriesRow> &series) {
@@ -65,21 +89,20 @@ std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow
 }
 
 std::string branch_csv(const Outcome &outcome) {
-  std::vector<ReportedQuantity> quantities = branch_quantities();
-  std::erase_if(quantities, [&](const ReportedQuantity &quantity) {
-    return !is_reported(quantity, outcome.branch.empty() ? SeriesRow{} : outcome.branch.front().row);
-  });
-  std::vector<std::string> fields{outcome.along};
-  std::ranges::transform(quantities, std::back_inserter(fields), &ReportedQuantity::name);
-  fields.emplace_back("growth_rate");
-  std::string text = csv_row(fields);
-  for (const BranchRow &point : outcome.branch) {
-    fields = {number_text(point.parameter)};
-    for (const ReportedQuantity &quantity : quantities)
-      fields.push_back(number_text(point.row.*quantity.value));
-    fields.push_back(number_text(point.growth_rate));
-    text += csv_row(fields);
-  }
+  std::string text = csv_row(names_on_branch(outcome));
+  for (const BranchRow &point : outcome.branch)
+    text += csv_row(fields_on_branch(outcome, point));
+  return text;
+}
+
+std::string fold_curve_csv(const Outcome &outcome) {
+  const auto row = [](std::vector<std::string> fields, const std::string &first) {
+    fields.insert(fields.begin(), first);
+    return csv_row(fields);
+  };
+  std::string text = row(names_on_branch(outcome), outcome.fold_along);
+  for (const auto &[second, fold] : outcome.fold_curve)
+    text += row(fields_on_branch(outcome, fold), number_text(second));
   return text;
 }
 

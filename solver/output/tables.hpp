@@ -21,6 +21,8 @@ bool in_physical_units(const Case &physics, const Outcome &outcome);
 std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow> &series);
 // Its first column is the key that varies, its last the growth rate.
 std::string branch_csv(const Outcome &outcome);
+// The second key, then as in branch.csv.
+std::string fold_curve_csv(const Outcome &outcome);
 // The same in SI units. Along the capillary number its second column is the flow rate without a capsule.
 std::string physical_branch_csv(const Case &physics, const Outcome &outcome);
 // The numbers of a point of a branch in SI units, by their names with units.

@@ -202,18 +202,30 @@ ExitCode find_steady_states(const Arguments &arguments) {
 }
 
 ExitCode follow_branches(const Arguments &arguments) {
-  if (const std::string near = nearest_key(arguments.along); !near.empty() && !find_key(arguments.along))
-    throw InputError(fmt::format("error: no branch along '{}'\ndid you mean '{}'?\n", arguments.along, near));
-  const Task task{.motion = false,
-                  .name = fmt::format("branch --along {} --to {}", arguments.along, arguments.to),
-                  .branch = true};
+  const bool follows_fold = !arguments.fold_along.empty();
+  for (const std::string &key : {arguments.along, arguments.fold_along})
+    if (const std::string near = nearest_key(key); !near.empty() && !find_key(key))
+      throw InputError(fmt::format("error: no branch along '{}'\ndid you mean '{}'?\n", key, near));
+  Task task{.motion = false,
+            .name = fmt::format("branch --along {} --to {}", arguments.along, arguments.to),
+            .branch = true};
+  if (follows_fold)
+    task.name += fmt::format(" --fold-along {} --fold-to {}", arguments.fold_along, arguments.fold_to);
   CaseInput input = read_case_of(arguments, task);
   const auto end = [&](const Case &physics) { return end_of_branch(physics, arguments.along, arguments.to); };
-  for (const auto &[name, physics] : input.runs)
+  const auto second = [&](const Case &physics) {
+    return follows_fold ? std::optional(end_of_branch(physics, arguments.fold_along, arguments.fold_to))
+                        : std::nullopt;
+  };
+  for (const auto &[name, physics] : input.runs) {
     require_branch(physics, end(physics).key, end(physics).value);
+    if (follows_fold)
+      require_fold_curve(physics, end(physics).key, *second(physics));
+  }
   const Method method = [&](const Case &physics, const Checkpoint & /*none is saved*/,
                             const Control &control) {
-    return follow_branch(physics, end(physics).key, end(physics).value, control, march_to_rest);
+    return follow_branch(physics, end(physics).key, end(physics).value, control, march_to_rest,
+                         second(physics));
   };
   return compute_runs(different_branches(std::move(input), task, end), arguments, {task, method});
 }

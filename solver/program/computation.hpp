@@ -22,6 +22,7 @@ struct Arguments {
   std::string from;                  // directory of a run whose last profile is near to the steady state
   std::string along;                 // the key that varies on a branch
   std::string to;                    // and where it goes
+  std::string fold_along, fold_to;   // the same of the key along which its last fold is followed; or empty
   std::vector<std::string> profiles; // contours to fit: files, or directories of them
   bool together = false;             // all of one capsule
 };

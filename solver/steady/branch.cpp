@@ -7,6 +7,8 @@
 #include "case/units.hpp"
 #include "observe/gauge.hpp"
 #include "steady/continuation.hpp"
+#include "steady/fold_curve.hpp"
+#include "steady/homotopy.hpp"
 #include "steady/refinement.hpp"
 #include "steady/steady_state.hpp"
 #include <algorithm>
@@ -88,7 +90,7 @@ private:
 class BranchFollower {
 public:
   BranchFollower(const Case &input, const KeyPath &path, const Control &control)
-      : path_(path), record_(path, input.flow.viscosity_ratio, control),
+      : path_(path), viscosity_ratio_(input.flow.viscosity_ratio), record_(path, viscosity_ratio_, control),
         may_refine_(input.mesh.membrane == 0) {}
 
   void begin(const RefinedState &start) {
@@ -105,8 +107,11 @@ public:
     if (branch_->turned() && !branch_->tangent_has_turned() &&
         refine_mesh(branch_->point_before(), branch_->tangent_before(), branch_->trend_before()))
       return false;
-    if (branch_->turned())
-      outcome().folds.push_back(record(branch_->fold(), true));
+    if (branch_->turned()) {
+      const BranchPoint fold = branch_->fold();
+      outcome().folds.push_back(record(fold, true));
+      last_fold_ = {{state_.system, fold.unknowns}, fold.parameter, branch_->tangent_before()};
+    }
     branch_->require_stiffness(1);
     part_ = branch_->point().parameter;
     if (part_ >= 1 || part_ <= 0) {
@@ -138,6 +143,24 @@ public:
     if (branch_->wants_a_finer_mesh())
       refine_mesh(branch_->point(), branch_->tangent(), branch_->trend());
     return false;
+  }
+
+  // To the end of another key's path.
+  void follow_last_fold(const KeyPath &second, const Control &control) {
+    outcome().fold_along = second.key();
+    if (outcome().folds.empty())
+      throw NumericsFailure(failure_kind::unresolved, "no fold on the way that could be followed",
+                            "a farther --to");
+    auto &[fold, part, tangent] = last_fold_;
+    follow_fold(fold, {fold.unknowns, part, 0}, tangent.head(fold.unknowns.size()), path_, second,
+                may_refine_ ? most_nodes_of_a_branch : nodes(), control,
+                [&](const SteadyState &state, const FoldPoint &point) {
+                  throw_if_interrupted(control);
+                  const SteadyRecord record = record_steady(state, viscosity_ratio_);
+                  outcome().fold_curve.push_back(
+                      {second.value(point.second_part),
+                       {path_.value(point.part), record.row, record.further.at("growth_rate")}});
+                });
   }
 
   void keep_latest() { record_.keep_latest(); }
@@ -177,11 +200,13 @@ private:
   }
 
   KeyPath path_;
+  double viscosity_ratio_;
   Record record_;
   bool may_refine_;
   SteadyState state_;
   std::unique_ptr<Branch> branch_;
   double part_ = 0;
+  Homotopy::Fold last_fold_;
 };
 
 // Throws InputError where no branch goes along this key.
@@ -217,6 +242,12 @@ void require_branch(const Case &input, const std::string &key, double to) {
     throw InputError(fmt::format("error: {} = {} is where the branch begins\n", key, number_text(to)));
 }
 
+void require_fold_curve(const Case &input, const std::string &key, const BranchEnd &second) {
+  if (second.key == key)
+    throw InputError(fmt::format("error: --fold-along {}: the branch goes along it\n", key));
+  require_branch(input, second.key, second.value);
+}
+
 BranchEnd end_of_branch(const Case &input, const std::string &along, const std::string &to) {
   if (along != flow_rate_key) {
     if (const auto value = to_number(to))
@@ -236,8 +267,10 @@ BranchEnd end_of_branch(const Case &input, const std::string &along, const std::
 }
 
 Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control,
-                      const MarchToRest &march) {
+                      const MarchToRest &march, const std::optional<BranchEnd> &second) {
   require_branch(asked, key, to);
+  if (second)
+    require_fold_curve(asked, key, *second);
   Case input = asked;
   input.accuracy = std::min(asked.accuracy, accuracy_of_folds);
   BranchFollower follower(input, KeyPath(key, input, to), control);
@@ -247,6 +280,8 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
     follower.begin(refine(input, find_steady(input, {}, control, march), control));
     while (!follower.advance()) {
     }
+    if (second)
+      follower.follow_last_fold({second->key, input, second->value}, control);
     outcome.membrane_nodes = follower.nodes();
   } catch (const NumericsFailure &failure) {
     follower.keep_latest();
