@@ -1,6 +1,7 @@
 #!/bin/sh
 # What computes a march, built by another compiler and with less optimisation, gives the same numbers within the error
-# estimates. Files, cases and the command line are those of the first build: they compute nothing here.
+# estimates. Files, cases and the command line are those of the first build: they compute nothing here. That the other
+# compiler takes them, too, and that the fuzzers link where it is clang++, is tried beside.
 #   sh validation/two_builds.sh path/to/capsule
 # Skipped (77) where the other compiler is missing: clang++, or g++ where clang++ has built the first. The second build
 # stays beside the first, so that only what has changed is built again.
@@ -24,7 +25,10 @@ if ! command -v $compiler >/dev/null; then
 fi
 cmake -G Ninja -S "$project" -B "$second" -DCMAKE_CXX_COMPILER=$compiler -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_CXX_FLAGS_RELEASE='-O1 -DNDEBUG' -DREST_OF_SOLVER="$(dirname "$capsule")/libsolver.a" >log 2>&1 &&
-  cmake --build "$second" --target capsule -j 2 >log 2>&1 || fail "the build by $compiler"
+  cmake --build "$second" --target capsule rest -j 2 >log 2>&1 || fail "the build by $compiler"
+if [ $compiler = clang++ ]; then
+  cmake --build "$second" --target fuzzers -j 2 >log 2>&1 || fail 'the build of the fuzzers'
+fi
 "$second/capsule" run case.toml --jobs 2 --out second
 
 # One line a number: its name, its value. Those of error_estimate are called "error of ...".
