@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <iterator>
 #include <regex>
 #include <utf8.h>
 #include <vector>
@@ -53,23 +54,33 @@ std::optional<double> to_number(const std::string &text) {
   return whole && !too_large ? std::optional(value) : std::nullopt;
 }
 
+std::vector<std::string> groups_in(const std::string &text, const std::string &pattern) {
+  std::smatch found;
+  if (!std::regex_match(text, found, std::regex(pattern)))
+    return {};
+  return {std::next(found.begin()), found.end()};
+}
+
 std::string respelled_number(const std::string &text) {
   constexpr std::size_t longest = 40;
   constexpr std::string_view minus = "\u2212";
-  static const std::regex number("([+-]?)(0*)([0-9]*)(?:([.,])([0-9]*))?(?:[eEdD]([+-]?[0-9]+))?");
   const std::string ascii = text.starts_with(minus) ? fmt::format("-{}", text.substr(minus.size())) : text;
-  std::smatch part;
-  if (ascii.size() > longest || !std::regex_match(ascii, part, number))
+  if (ascii.size() > longest)
     return "";
-  const std::string zeros = part[2], whole = part[3], point = part[4], fraction = part[5];
+  const std::vector<std::string> part =
+      groups_in(ascii, "([+-]?)(0*)([0-9]*)(?:([.,])([0-9]*))?(?:[eEdD]([+-]?[0-9]+))?");
+  if (part.empty())
+    return "";
+  const std::string &sign = part[0], &zeros = part[1], &whole = part[2], &point = part[3],
+                    &fraction = part[4], &exponent = part[5];
   if (zeros.empty() && whole.empty() && fraction.empty())
     return "";
   const bool thousands = point == "," && fraction.size() == 3 && zeros.empty() && !whole.empty();
   if (thousands)
     return "";
-  return fmt::format("{}{}{}{}", part[1] == "-" ? "-" : "", whole.empty() ? "0" : whole,
+  return fmt::format("{}{}{}{}", sign == "-" ? "-" : "", whole.empty() ? "0" : whole,
                      point.empty() ? "" : "." + (fraction.empty() ? "0" : fraction),
-                     part[6].matched ? "e" + part[6].str() : "");
+                     exponent.empty() ? "" : "e" + exponent);
 }
 
 std::string not_a_number(const std::string &text, const std::string &where) {

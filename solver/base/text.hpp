@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace capsule {
 
@@ -13,6 +14,10 @@ std::string number_text(double value);
 
 // The number, if the whole text is one; nothing for one that is too large.
 std::optional<double> to_number(const std::string &text);
+
+// What each group of a regular expression stands for in a text that fits it as a whole; nothing for one that does not fit.
+// The library's expressions take seconds to compile, in text.cpp and nowhere else. It recurses: the text must be short.
+std::vector<std::string> groups_in(const std::string &text, const std::string &pattern);
 
 // A number in the notation of another program, as it is written here: "1e-3" for "1d-3", "0.05" for "0,05" or ".05",
 // "5.0" for "5.", "-5" with a typesetter's minus. Empty if the text is no number, or may stand for two: "1,000".

@@ -3,6 +3,7 @@
 #include "base/build_info.hpp"
 #include "base/digest.hpp"
 #include "base/json_file.hpp"
+#include "base/text.hpp"
 #include "case/identity.hpp"
 #include "output/checkpoint.hpp"
 #include <algorithm>
@@ -12,8 +13,8 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <gsl/gsl_version.h>
-#include <regex>
 #include <sstream>
+#include <vector>
 
 namespace capsule {
 namespace {
@@ -44,14 +45,14 @@ bool is_as_written(Json json) {
 
 // The files that an altered run.json still names: a line for each, "series.csv": "0123456789abcdef".
 std::map<std::string, std::string> digests_in(const std::string &text) {
-  static const std::regex entry("^ *\"([A-Za-z0-9_-]+\\.[a-z]+)\": *\"([0-9a-f]{16})\",?$");
+  constexpr const char *entry = R"re(^ *"([A-Za-z0-9_-]+\.[a-z]+)": *"([0-9a-f]{16})",?$)re";
   constexpr std::size_t longest = 200;
   std::map<std::string, std::string> digests;
   std::istringstream stream(text);
-  std::smatch found;
   for (std::string line; std::getline(stream, line);)
-    if (line.size() < longest && std::regex_match(line, found, entry))
-      digests[found[1]] = found[2];
+    if (line.size() < longest)
+      if (const std::vector<std::string> found = groups_in(line, entry); !found.empty())
+        digests[found[0]] = found[1];
   return digests;
 }
 
