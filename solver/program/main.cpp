@@ -114,11 +114,10 @@ ExitCode run_command(int argc, char **argv) {
                   "the value of the key where the branch ends; of physical.flow_rate with its unit")
       ->type_name("VALUE")
       ->required();
-  CLI::Option *fold_along =
-      branch_app
-          .add_option("--fold-along", arguments.fold_along,
-                      "follow the last fold along this key: fold_curve.csv")
-          ->type_name("KEY");
+  CLI::Option *fold_along = branch_app
+                                .add_option("--fold-along", arguments.fold_along,
+                                            "follow the last fold along this key: fold_curve.csv")
+                                ->type_name("KEY");
   fold_along->needs(branch_app
                         .add_option("--fold-to", arguments.fold_to,
                                     "the value of that key where the curve of the fold ends")
