@@ -1,6 +1,5 @@
 #include "steady/continuation.hpp"
 #include "base/failure.hpp"
-#include "geometry/node_density.hpp"
 #include "steady/newton.hpp"
 #include "steady/slopes.hpp"
 #include <algorithm>
@@ -13,7 +12,6 @@ namespace capsule {
 namespace {
 
 constexpr double smallest_step = 1e-6;
-constexpr double largest_slack = 5e-7;
 constexpr double work_of_residual = 0.06; // of a linearisation
 
 // Factor from one step to the next. The contraction of Newton's method grows with the error of the guess, which is of second
@@ -31,12 +29,6 @@ Vector way(const BranchPoint &from, const BranchPoint &to) {
 }
 
 } // namespace
-
-bool poorly_resolved(const SteadySystem &system, const Vector &unknowns, double largest_unresolved_part) {
-  return std::abs(unknowns[unknowns.size() - 1]) > largest_slack ||
-         unresolved_part(system.membrane().basis, unknowns.head(2 * system.nodes())) >
-             largest_unresolved_part;
-}
 
 Branch::Branch(SteadySystem &system, KeyPath path, BranchPoint start, const Vector &direction,
                const Steps &steps, Trend trend, Control control)
@@ -181,12 +173,9 @@ Vector Branch::way_to_guess(double step) const {
 // The nearest of these parameters on the way to another one.
 std::optional<double> Branch::first_passed(std::span<const double> stops, double parameter) const {
   std::optional<double> first;
-  for (const double stop : stops) {
-    const double part = (stop - point_.parameter) / (parameter - point_.parameter);
-    if (part > 0 && part <= 1 &&
-        (!first || std::abs(stop - point_.parameter) < std::abs(*first - point_.parameter)))
-      first = stop;
-  }
+  for (const double stop : stops)
+    if (const double part = (stop - point_.parameter) / (parameter - point_.parameter); part > 0 && part <= 1)
+      first = parameter = stop;
   return first;
 }
 

@@ -18,12 +18,6 @@ struct BranchPoint {
   double parameter = 0;
 };
 
-// Whether a state is poorly resolved: then the exact derivative differs from that of the discrete equations, and Newton's
-// method soon fails.
-constexpr double fine_tail = 1e-6; // of a shape, in the last waves (unresolved_part in node_density.hpp)
-bool poorly_resolved(const SteadySystem &system, const Vector &unknowns,
-                     double largest_unresolved_part = fine_tail);
-
 constexpr std::array ends_of_path{0.0, 1.0};
 
 class Branch {

@@ -3,6 +3,7 @@
 #include "case/empty_pore.hpp"
 #include "case/physical.hpp"
 #include "geometry/gap.hpp"
+#include "geometry/node_density.hpp"
 #include "membrane/load.hpp"
 #include "membrane/surface_viscosity.hpp"
 #include "scene/make_flow.hpp"
@@ -23,6 +24,7 @@ constexpr Advice advice{.at_the_wall = "try a larger flow.capillary_number",
                         .at_the_end = "try a smaller flow.capillary_number"};
 
 constexpr double room = 1.25; // for the membrane to grow
+constexpr double largest_slack = 5e-7;
 
 } // namespace
 
@@ -251,6 +253,12 @@ FlowState SteadySystem::flow(const Vector &position) const {
   state.pressure_drop_reciprocal =
       flow_->reciprocal_pressure_drops(interaction, nodal_load, state, unused).sum();
   return state;
+}
+
+bool poorly_resolved(const SteadySystem &system, const Vector &unknowns, double largest_unresolved_part) {
+  return std::abs(unknowns[unknowns.size() - 1]) > largest_slack ||
+         unresolved_part(system.membrane().basis, unknowns.head(2 * system.nodes())) >
+             largest_unresolved_part;
 }
 
 } // namespace capsule
