@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <complex>
+#include <limits>
 #include <vector>
 
 namespace capsule {
@@ -53,33 +54,14 @@ Eigen::VectorXcd all_growth_rates(const SteadySystem::Linearisation &linear, con
   return rates;
 }
 
-} // namespace
-
-Matrix small_motion(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
-                    Neighbours neighbours) {
-  return small_motion(system.linearise(unknowns, neighbours), viscosity_ratio);
-}
-
-Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
-                                  Neighbours neighbours) {
-  const SteadySystem::Linearisation linear = system.linearise(unknowns, neighbours);
-  return all_growth_rates(linear, border_of(linear, neighbours), viscosity_ratio);
-}
-
-Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
-                              Neighbours neighbours) {
-  return growth_rates(system, system.linearise(unknowns, neighbours), viscosity_ratio, neighbours);
-}
-
 // Arnoldi's method on the inverse of the motion. The inverse maps a rate of displacement to the displacement that
 // keeps centre and volume and has this rate, seen from the centre. Newton's bordered matrix solves for it; its border,
 // along which centre and volume are corrected, is a velocity and is multiplied by the velocity's operator for the other
 // viscosity ratio. A growing motion is alone on its side of the inverse's spectrum and shows early, but it need not
 // be the one that grows fastest: then all rates are computed.
-Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Linearisation &linear,
-                              double viscosity_ratio, Neighbours neighbours) {
+Eigen::VectorXcd rates_by_arnoldi(const SteadySystem &system, const SteadySystem::Linearisation &linear,
+                                  double viscosity_ratio, Neighbours neighbours, std::size_t wanted) {
   constexpr std::array vectors{40, 80}; // as many as the second where the first show too few rates
-  constexpr std::size_t enough_rates = 10;
   constexpr double converged = 1e-8, visible = 0.1; // relative residuals of an eigenvalue
   const Eigen::Index n2 = 2 * system.nodes();
   const Matrix on_velocity = velocity_operator(linear, viscosity_ratio);
@@ -122,7 +104,7 @@ Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Li
   std::vector<std::complex<double>> rates;
   bool is_open = true;
   for (const Eigen::Index most : vectors) {
-    if (rates.size() >= enough_rates || !is_open || size == m)
+    if (rates.size() >= wanted || !is_open || size == m)
       break;
     while (is_open && size < std::min(most, m))
       is_open = extend();
@@ -142,6 +124,32 @@ Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Li
                           "try a finer mesh.membrane");
   std::sort(rates.begin(), rates.end(), grows_more);
   return Eigen::Map<Eigen::VectorXcd>(rates.data(), std::ssize(rates));
+}
+
+} // namespace
+
+Matrix small_motion(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
+                    Neighbours neighbours) {
+  return small_motion(system.linearise(unknowns, neighbours), viscosity_ratio);
+}
+
+Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
+                                  Neighbours neighbours) {
+  const SteadySystem::Linearisation linear = system.linearise(unknowns, neighbours);
+  return all_growth_rates(linear, border_of(linear, neighbours), viscosity_ratio);
+}
+
+Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
+                              Neighbours neighbours) {
+  constexpr std::size_t all_that_converge = std::numeric_limits<std::size_t>::max();
+  return rates_by_arnoldi(system, system.linearise(unknowns, neighbours), viscosity_ratio, neighbours,
+                          all_that_converge);
+}
+
+std::complex<double> slowest_rate(const SteadySystem &system, const SteadySystem::Linearisation &linear,
+                                  double viscosity_ratio, Neighbours neighbours) {
+  constexpr std::size_t enough = 10;
+  return rates_by_arnoldi(system, linear, viscosity_ratio, neighbours, enough)[0];
 }
 
 } // namespace capsule

@@ -5,6 +5,7 @@
 // there is no velocity. In a train the neighbours move alike, or opposed: then displacements along the axis bring capsules
 // together in pairs, and are not left out. Derivation: paper-notes/equations.md, section 8.
 #include "steady/steady_system.hpp"
+#include <complex>
 
 namespace capsule {
 
@@ -20,8 +21,8 @@ Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unkn
 // NumericsFailure("unresolved") if none converges.
 Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
                               Neighbours neighbours = Neighbours::alike);
-// The same from the linearisation at the state.
-Eigen::VectorXcd growth_rates(const SteadySystem &system, const SteadySystem::Linearisation &linear,
-                              double viscosity_ratio, Neighbours neighbours = Neighbours::alike);
+// The first of them alone, from the linearisation at the state, in less time.
+std::complex<double> slowest_rate(const SteadySystem &system, const SteadySystem::Linearisation &linear,
+                                  double viscosity_ratio, Neighbours neighbours = Neighbours::alike);
 
 } // namespace capsule

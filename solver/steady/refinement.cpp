@@ -169,7 +169,7 @@ SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Lineari
                            const Gauge &gauge, double viscosity_ratio) {
   const SteadySystem &system = *state.system;
   SteadyRecord record = measure(state, gauge);
-  const std::complex<double> slowest = growth_rates(system, linear, viscosity_ratio)[0];
+  const std::complex<double> slowest = slowest_rate(system, linear, viscosity_ratio);
   record.further = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
   if (system.input().flow.type == FlowType::pore)
     record.further["growth_per_length"] = slowest.real() / record.row.v_g;
@@ -178,7 +178,9 @@ SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Lineari
     constexpr double poiseuille = 8; // pressure drop of a tube per radius
     record.further["apparent_viscosity"] = 1 + record.row.pressure_drop / (poiseuille * period);
     record.further["pairing_growth_rate"] =
-        growth_rates(system, state.unknowns, viscosity_ratio, Neighbours::opposed)[0].real();
+        slowest_rate(system, system.linearise(state.unknowns, Neighbours::opposed), viscosity_ratio,
+                     Neighbours::opposed)
+            .real();
   }
   return record;
 }

@@ -234,6 +234,9 @@ BOOST_AUTO_TEST_CASE(growth_rates_are_eigenvalues) {
       BOOST_TEST(rates.size() < all.size());
       for (Eigen::Index k = 0; k < 12; ++k)
         BOOST_TEST(std::abs(rates[k] - all[k]) < 1e-7 * std::abs(all[k]));
+      const std::complex<double> slowest =
+          slowest_rate(*state.system, state.system->linearise(state.unknowns), lambda);
+      BOOST_TEST(std::abs(slowest - all[0]) < 1e-7 * std::abs(all[0]));
     }
   }
 }
@@ -257,6 +260,7 @@ BOOST_AUTO_TEST_CASE(fast_buckles_are_found) {
   const double fastest = all.real().maxCoeff();
   BOOST_TEST(fastest > 100);
   BOOST_TEST(std::abs(rates[0].real() - fastest) < 0.01 * fastest);
+  BOOST_TEST(slowest_rate(soft, soft.linearise(state.unknowns), 1) == rates[0]);
 }
 
 // Two meshes of which neither knows the other.
