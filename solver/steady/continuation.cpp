@@ -179,23 +179,19 @@ std::optional<double> Branch::first_passed(std::span<const double> stops, double
   return first;
 }
 
-// The way to the guess at a parameter before the next step's end or shortly behind it.
-Vector Branch::way_to_stop(double stop) const {
-  const double change = stop - point_.parameter;
-  const auto beyond = [&](double step) {
-    const Vector guess = way_to_guess(step);
-    return guess[guess.size() - 1] / change - 1;
+// The length, up to a farthest one, at which the guess has a parameter; the farthest one if it does not come there.
+double Branch::step_to(double parameter, double farthest) const {
+  const auto beyond = [&](double part) {
+    const Vector guess = way_to_guess(part * farthest);
+    return guess[guess.size() - 1] / (parameter - point_.parameter) - 1;
   };
-  double step = step_;
-  if (const double at_end = beyond(step_); at_end > 0) {
-    std::uintmax_t evaluations = 30;
-    const auto found = boost::math::tools::toms748_solve(
-        beyond, 0.0, step_, -1.0, at_end, boost::math::tools::eps_tolerance<double>(30), evaluations);
-    step = (found.first + found.second) / 2;
-  }
-  Vector guess = way_to_guess(step);
-  guess[guess.size() - 1] = change;
-  return guess;
+  const double at_farthest = beyond(1);
+  if (!(at_farthest > 0))
+    return farthest;
+  std::uintmax_t evaluations = 30;
+  const auto found = boost::math::tools::toms748_solve(
+      beyond, 0.0, 1.0, -1.0, at_farthest, boost::math::tools::eps_tolerance<double>(30), evaluations);
+  return (found.first + found.second) / 2 * farthest;
 }
 
 void Branch::advance(std::span<const double> stops) {
@@ -211,8 +207,8 @@ void Branch::advance(std::span<const double> stops) {
       stop = first_passed(stops, next.point.parameter);
     }
     if (stop) {
-      guess = way_to_stop(*stop);
-      const double change = guess[m];
+      guess = way_to_guess(step_to(*stop, step_));
+      const double change = guess[m] = *stop - point_.parameter;
       next = correct(point_, std::copysign(1.0, change) * Vector::Unit(m + 1, m), std::abs(change),
                      steps_.tolerance, guess, slopes_);
       next.point.parameter = *stop;
@@ -234,6 +230,14 @@ void Branch::advance(std::span<const double> stops) {
     step_ = std::min(stop ? std::max(step_, next_step) : next_step, steps_.largest);
     return true;
   });
+}
+
+// By the slopes at the last point while they do.
+BranchPoint Branch::at_parameter(double parameter) const {
+  const double back = -weighted(way(before_, point_), tangent_);
+  const Vector guess = point_.unknowns + way_to_guess(step_to(parameter, back)).head(point_.unknowns.size());
+  system_->set_parameters(path_.at(parameter));
+  return {solve_steady(*system_, guess, slopes_->linear.jacobian.partialPivLu()), parameter};
 }
 
 double Branch::plain_step() const {

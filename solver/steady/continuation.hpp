@@ -60,6 +60,8 @@ public:
   bool wants_a_finer_mesh() const {
     return poorly_resolved(*system_, point_.unknowns, steps_.largest_unresolved_part);
   }
+  // The steady state between the last two points at a parameter between theirs: a surer end of a way with long steps.
+  BranchPoint at_parameter(double parameter) const;
   // Throws NumericsFailure if the membrane has softened in the last step, before the parameter came to `end`. It says from
   // which parameter on: behind it states depend on the mesh.
   void require_stiffness(double end) const;
@@ -89,7 +91,7 @@ private:
                     const Vector &way_to_guess, std::optional<Slopes> slopes) const;
   Vector way_to_guess(double step) const;
   std::optional<double> first_passed(std::span<const double> stops, double parameter) const;
-  Vector way_to_stop(double stop) const;
+  double step_to(double parameter, double farthest) const;
   double weighted(const Vector &a, const Vector &b) const;
   double along_tangent_before(const BranchPoint &at) const;
   Vector row_across(const Vector &tangent) const;

@@ -69,7 +69,7 @@ bool Homotopy::follow(const KeyPath &path) {
     place_.trend = branch.trend();
     place_.first_step = branch.plain_step();
     try {
-      branch.advance();
+      branch.advance({});
     } catch (const NumericsFailure &failure) {
       if (!place_.turned_at.empty() && !can_refine())
         break; // behind the fold, as far as this mesh goes
@@ -104,7 +104,7 @@ bool Homotopy::follow(const KeyPath &path) {
         (!place_.turned_at.empty() && state_.system->largest_stretch(now.unknowns) > runaway_stretch))
       break;
     if (now.parameter >= 1) {
-      state_.unknowns = now.unknowns;
+      state_.unknowns = branch.at_parameter(1).unknowns;
       return true;
     }
   }

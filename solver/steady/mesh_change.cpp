@@ -39,9 +39,9 @@ void follow(const KeyPath &path, SteadyState &state, const Control &control) {
     if (step == most_steps || branch.point().parameter < 0)
       throw NumericsFailure(failure_kind::unresolved, fmt::format("no way to {}", path.text(1)),
                             "try a finer mesh.membrane");
-    branch.advance();
+    branch.advance({});
   }
-  state.unknowns = branch.point().unknowns;
+  state.unknowns = branch.at_parameter(1).unknowns;
 }
 
 } // namespace

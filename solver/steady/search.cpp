@@ -179,7 +179,7 @@ bool is_folded(const Case &input) {
 
 SteadyState searched(const Case &input, const Control &control, const MarchToRest &march,
                      Attempts &attempts) {
-  constexpr double most_work_of_a_way = 480;
+  constexpr double most_work_of_a_way = 700;
   const double flow = input.flow.capillary_number;
   const bool fits = extent(input.capsule).half_width <= widest_unsqueezed;
   const double weakest = input.flow.type == FlowType::extension ? 0 : 0.015; // only a tube squeezes
