@@ -43,21 +43,32 @@ std::vector<ReportedQuantity> reported_on_branch(const Outcome &outcome) {
   return quantities;
 }
 
-// The key, the quantities and the growth rate.
-std::vector<std::string> names_on_branch(const Outcome &outcome) {
-  std::vector<std::string> names{outcome.along};
-  std::ranges::transform(reported_on_branch(outcome), std::back_inserter(names), &ReportedQuantity::name);
-  names.emplace_back("growth_rate");
-  return names;
-}
+// A row of names and one for each point of a branch: the key, the quantities, and the growth rate. `first`, if it is not empty,
+// stands before each.
+class BranchTable {
+public:
+  explicit BranchTable(const Outcome &outcome) : quantities_(reported_on_branch(outcome)) {}
 
-std::vector<std::string> fields_on_branch(const Outcome &outcome, const BranchRow &point) {
-  std::vector<std::string> fields{number_text(point.parameter)};
-  for (const ReportedQuantity &quantity : reported_on_branch(outcome))
-    fields.push_back(number_text(point.row.*quantity.value));
-  fields.push_back(number_text(point.growth_rate));
-  return fields;
-}
+  std::string head(const std::string &along, const std::string &first = "") const {
+    std::vector<std::string> fields = begin(first, along);
+    std::ranges::transform(quantities_, std::back_inserter(fields), &ReportedQuantity::name);
+    fields.emplace_back("growth_rate");
+    return csv_row(fields);
+  }
+  std::string row(const BranchRow &point, const std::string &first = "") const {
+    std::vector<std::string> fields = begin(first, number_text(point.parameter));
+    for (const ReportedQuantity &quantity : quantities_)
+      fields.push_back(number_text(point.row.*quantity.value));
+    fields.push_back(number_text(point.growth_rate));
+    return csv_row(fields);
+  }
+
+private:
+  static std::vector<std::string> begin(const std::string &first, const std::string &second) {
+    return first.empty() ? std::vector{second} : std::vector{first, second};
+  }
+  std::vector<ReportedQuantity> quantities_;
+};
 
 } // namespace
 
@@ -89,20 +100,18 @@ std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow
 }
 
 std::string branch_csv(const Outcome &outcome) {
-  std::string text = csv_row(names_on_branch(outcome));
+  const BranchTable table(outcome);
+  std::string text = table.head(outcome.along);
   for (const BranchRow &point : outcome.branch)
-    text += csv_row(fields_on_branch(outcome, point));
+    text += table.row(point);
   return text;
 }
 
 std::string fold_curve_csv(const Outcome &outcome) {
-  const auto row = [](std::vector<std::string> fields, const std::string &first) {
-    fields.insert(fields.begin(), first);
-    return csv_row(fields);
-  };
-  std::string text = row(names_on_branch(outcome), outcome.fold_along);
+  const BranchTable table(outcome);
+  std::string text = table.head(outcome.along, outcome.fold_along);
   for (const auto &[second, fold] : outcome.fold_curve)
-    text += row(fields_on_branch(outcome, fold), number_text(second));
+    text += table.row(fold, number_text(second));
   return text;
 }
 
