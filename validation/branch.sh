@@ -53,7 +53,7 @@ sort -nu times | cmp - times && grep -q "Name=\"$key\"" folded/membrane_0001.vtp
 awk -F, -v fold="$fold" 'NR > 1 && $1 >= fold { exit 1 }' folded/branch.csv || fail "a point beyond the fold at $fold"
 near "$(point folded '$' growth_rate)" 10 9.999 'beyond the fold small motions grow'
 ends 3 steady case.toml --out beyond --set $key="$(awk -v f="$fold" 'BEGIN { print 1.002 * f }')"
-said=$(sed -n "s/.*fold at $key = \([0-9.]*\);.*/\1/p" log)
+said=$(sed -n "s/.*fold at $key = \([0-9.]*\), the critical capillary number;.*/\1/p" log)
 near "$said" "$fold" "$(awk -v f="$fold" 'BEGIN { print 1e-4 * f }')" 'the fold'
 ends 0 steady case.toml --out below --set $key="$(awk -v f="$fold" 'BEGIN { print 0.998 * f }')"
 
@@ -97,6 +97,8 @@ awk -F, -v key="$key" '
   $1 != eps[FNR] || apart(rate, 1e-10 * eps[FNR]) || apart($column["pressure_drop [Pa]", 0], drop[FNR] * pressure) { exit 1 }
   ' physical/branch.csv physical/branch_physical.csv || fail 'the branch in SI units'
 near "$(sed -n 's/.*fold at a flow rate of \(.*\) nl\/s.*/\1/p' log | awk '{ print $1 / 100 }')" "$fold" 1e-4 'its flow rate'
+ends 3 steady physical.toml --out critical --set physical.flow_rate="$(awk -v f="$fold" 'BEGIN { print 100.2 * f }') nl/s"
+near "$(sed -n 's/.*(\([0-9.]*\) nl\/s), the critical flow rate;.*/\1/p' log | awk '{ print $1 / 100 }')" "$fold" 1e-4 'the critical flow rate'
 for rates in '"10 nl/s", "12 nl/s"' '"12 nl/s", "10 nl/s"'; do
   ends 0 branch physical.toml --along physical.flow_rate --to '30 nl/s' --set "sweep.physical.flow_rate=[$rates]" --list
   [ "$(grep -c 'flow_rate=' log)" = 1 ] && grep -q 'flow_rate=10nl_per_s' log || fail 'a branch and a part of it'

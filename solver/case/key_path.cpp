@@ -75,4 +75,11 @@ std::string KeyPath::text(double part) const {
   return fmt::format("{} = {:.6g}{}", key_, value(part), rate.empty() ? "" : " (" + rate + ")");
 }
 
+std::string KeyPath::fold_text(double part) const {
+  if (key_ != flow_key || to_ < from_)
+    return text(part);
+  const bool has_rate = !flow_rate_text(start_, value(part)).empty();
+  return fmt::format("{}, the critical {}", text(part), has_rate ? "flow rate" : "capillary number");
+}
+
 } // namespace capsule

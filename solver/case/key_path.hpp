@@ -32,6 +32,8 @@ public:
   double slope(double part) const; // d value/d part
   Case at(double part) const;
   std::string text(double part) const; // "flow.capillary_number = 0.05", in physical units "... (20 nl/s)"
+  // The same of a fold, as which a stronger flow has a name: "flow.capillary_number = 0.05 (20 nl/s), the critical flow rate"
+  std::string fold_text(double part) const;
 
 private:
   bool is_straight() const { return from_ < 0 || to_ < 0 || natural_size(key_, 0) > 0; }

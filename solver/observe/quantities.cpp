@@ -86,7 +86,8 @@ constexpr std::array quantities{
     ReportedQuantity{.name = "max_area_stretch",
                      .meaning = "largest area stretch, lambda_s lambda_phi",
                      .value = &SeriesRow::max_area_stretch,
-                     .error = ErrorEstimate::of_all},
+                     .error = ErrorEstimate::of_all,
+                     .branch_column = 12},
     ReportedQuantity{.name = "S_at_max_area_stretch",
                      .meaning = "where on the membrane, as arc length S of profiles",
                      .value = &SeriesRow::S_at_max_area_stretch,
@@ -95,7 +96,8 @@ constexpr std::array quantities{
                      .meaning = "largest principal tension",
                      .value = &SeriesRow::max_tension,
                      .unit = newton_per_metre,
-                     .error = ErrorEstimate::of_all},
+                     .error = ErrorEstimate::of_all,
+                     .branch_column = 13},
     ReportedQuantity{.name = "S_at_max_tension",
                      .meaning = "where on the membrane, as arc length S of profiles",
                      .value = &SeriesRow::S_at_max_tension,
@@ -153,7 +155,7 @@ constexpr std::array quantities{
         .error = ErrorEstimate::of_all,
         .agreement = tenth_of_value,
         .of_the_pore = true,
-        .branch_column = 12,
+        .branch_column = 14,
         .if_asked = true},
     ReportedQuantity{.name = "resistance_long_conductor",
                      .meaning =
@@ -164,7 +166,7 @@ constexpr std::array quantities{
                      .error = ErrorEstimate::of_all,
                      .agreement = tenth_of_value,
                      .of_the_pore = true,
-                     .branch_column = 13,
+                     .branch_column = 15,
                      .if_asked = true},
     ReportedQuantity{.name = "pressure_share",
                      .meaning =
@@ -190,7 +192,7 @@ constexpr std::array quantities{
                      .unit = metre,
                      .error = ErrorEstimate::of_all,
                      .of_the_pore = true,
-                     .branch_column = 14,
+                     .branch_column = 16,
                      .if_asked = true},
 };
 static_assert(quantities.size() * sizeof(double) == sizeof(SeriesRow), "a line for each member of SeriesRow");

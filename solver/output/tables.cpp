@@ -70,6 +70,15 @@ private:
   std::vector<ReportedQuantity> quantities_;
 };
 
+// How a quantity stands in a table in SI units: with its unit, or as a stretch; nothing of others.
+std::optional<Column> physical_column(const ReportedQuantity &quantity, const Scales &scales) {
+  if (has_scale(quantity.unit, scales))
+    return Column{name_with_unit(quantity.name, *quantity.unit), quantity.value,
+                  scales.*quantity.unit->scale};
+  const bool is_stretch = !quantity.unit && std::string_view(quantity.name).ends_with("_stretch");
+  return is_stretch ? std::optional(Column{quantity.name, quantity.value}) : std::nullopt;
+}
+
 } // namespace
 
 std::string series_csv(const std::vector<SeriesRow> &series) {
@@ -88,13 +97,9 @@ std::string physical_series_csv(const Case &physics, const std::vector<SeriesRow
   const Scales scales = physical_scales(physics);
   std::vector<Column> columns;
   for (const ReportedQuantity &quantity : reported_quantities()) {
-    if (!is_reported(quantity, series.empty() ? SeriesRow{} : series.front()))
-      continue;
-    if (has_scale(quantity.unit, scales))
-      columns.push_back(
-          {name_with_unit(quantity.name, *quantity.unit), quantity.value, scales.*quantity.unit->scale});
-    else if (!quantity.unit && std::string_view(quantity.name).ends_with("_stretch"))
-      columns.push_back({quantity.name, quantity.value});
+    const auto column = physical_column(quantity, scales);
+    if (column && is_reported(quantity, series.empty() ? SeriesRow{} : series.front()))
+      columns.push_back(*column);
   }
   return csv_of(columns, series);
 }
@@ -120,14 +125,13 @@ std::vector<std::pair<std::string, double>> physical_values(const Case &physics,
   const Scales scales = scales_by_capillary_number(with_number(physics, along, point.parameter));
   std::vector<std::pair<std::string, double>> values;
   const auto add = [&](const std::string &name, const std::optional<PhysicalUnit> &unit, double value) {
-    if (has_scale(unit, scales))
-      values.emplace_back(name_with_unit(name, *unit), value * scales.*unit->scale);
+    values.emplace_back(name_with_unit(name, *unit), value * scales.*unit->scale);
   };
   if (along == flow_key)
     add("physical.flow_rate", unit_of("flow_rate"), 1);
   for (const ReportedQuantity &quantity : branch_quantities())
-    if (is_reported(quantity, point.row))
-      add(quantity.name, quantity.unit, point.row.*quantity.value);
+    if (const auto column = physical_column(quantity, scales); column && is_reported(quantity, point.row))
+      values.emplace_back(column->head, point.row.*column->value * column->scale);
   add("growth_rate", unit_of("growth_rate"), point.growth_rate);
   return values;
 }

@@ -118,7 +118,7 @@ bool Homotopy::follow(const KeyPath &path) {
         failure_kind::unresolved,
         fmt::format("the branch turns at {} and is not seen to come back", place_.turned_at),
         "begin with a profile of a march (--from)");
-  throw NumericsFailure(failure_kind::fold, fmt::format("fold at {}", place_.turned_at),
+  throw NumericsFailure(failure_kind::fold, fmt::format("fold at {}", path.fold_text(place_.farthest)),
                         "stay on the near side of it");
 }
 

@@ -49,7 +49,7 @@ FollowedFold follow_to(const KeyPath &softer, double softer_part, const KeyPath 
   constexpr double near_enough = 0.2; // part of the fold's flow
   FollowedFold now{.flow = stronger.value(stronger_part),
                    .bending = softer.value(softer_part),
-                   .text = stronger.text(stronger_part)};
+                   .text = stronger.fold_text(stronger_part)};
   if (!softer.needed())
     return now;
   try {
@@ -58,7 +58,7 @@ FollowedFold follow_to(const KeyPath &softer, double softer_part, const KeyPath 
                 [&](const SteadyState &state, const FoldPoint &point) {
                   const double before = std::exchange(now.flow, stronger.value(point.part));
                   const double stiffer = std::exchange(now.bending, softer.value(point.second_part));
-                  now.text = stronger.text(point.part);
+                  now.text = stronger.fold_text(point.part);
                   if (now.bending < stiffer)
                     now.slope = (now.flow - before) / std::log(now.bending / stiffer);
                   const double thin = softer.value(1);
@@ -77,9 +77,8 @@ NumericsFailure too_strong(const FollowedFold &fold, double thin) {
   const std::string place =
       fold.bending == thin
           ? "at " + fold.text
-          : fmt::format("near {}, where it is for {} = {:.2g}; it lies within {:.0f} % of that", fold.text,
-                        bending_key, fold.bending,
-                        std::ceil(100 * change_left(fold, thin, safe) / fold.flow));
+          : fmt::format("near {} for {} = {:.2g}; it lies within {:.0f} % of that", fold.text, bending_key,
+                        fold.bending, std::ceil(100 * change_left(fold, thin, safe) / fold.flow));
   return no_steady_state({failure_kind::fold, "fold " + place, "stay on the near side of it"});
 }
 

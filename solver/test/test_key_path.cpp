@@ -62,6 +62,15 @@ BOOST_AUTO_TEST_CASE(from_one_value_to_another) {
   physical.physical.viscosity = {1e-3};
   physical.physical.shear_modulus = {1e-11 * 1e-3 / (0.05 * std::numbers::pi * 1e-10)};
   BOOST_TEST(KeyPath(flow_key, physical, 0.1).text(1) == "flow.capillary_number = 0.1 (20 nl/s)");
+  BOOST_TEST(KeyPath(flow_key, physical, 0.1).fold_text(1) ==
+             "flow.capillary_number = 0.1 (20 nl/s), the critical flow rate");
+  BOOST_TEST(KeyPath(flow_key, some_case(), 0.1).fold_text(1) ==
+             "flow.capillary_number = 0.1, the critical capillary number");
+  Case faster = some_case();
+  faster.flow.capillary_number = 0.2;
+  BOOST_TEST(KeyPath(flow_key, faster, 0.1).fold_text(1) ==
+             "flow.capillary_number = 0.1"); // in a weaker flow
+  BOOST_TEST(KeyPath("capsule.radius", some_case(), 0.7).fold_text(1) == "capsule.radius = 0.7");
 }
 
 // Between positive values the eighth root is a straight line; with a negative end the value is one.

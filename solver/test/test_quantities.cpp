@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(columns_of_a_branch_are_numbered_without_gaps) {
   const std::vector<ReportedQuantity> columns = branch_quantities();
   for (std::size_t k = 0; k < columns.size(); ++k)
     BOOST_TEST(columns[k].branch_column == static_cast<int>(k) + 1);
-  BOOST_TEST(columns.size() == 14u);
+  BOOST_TEST(columns.size() == 16u);
 }
 
 // A quantity on which the meshes of a steady state have to agree is one whose error is estimated there.

@@ -240,6 +240,10 @@ BOOST_AUTO_TEST_CASE(branches_in_physical_units) {
     row.min_film = 0.1;
     row.length = 1.7;
     row.flow_rate = 0.7;
+    row.max_tension = 0.5;
+    row.max_stretch = 1.4;
+    row.max_area_stretch = 1.6;
+    row.front_stretch = 1.2;
     outcome.branch = {{value, row, -0.3}, {value, row, -0.2}};
     outcome.folds = {{value, row, 0}};
     write_results(directory.path, physics, outcome, {});
@@ -248,6 +252,10 @@ BOOST_AUTO_TEST_CASE(branches_in_physical_units) {
                                              {"min_film [m]", 0.5e-6},
                                              {"length [m]", 8.5e-6},
                                              {"flow_rate [m3/s]", 0.7 * velocity * std::numbers::pi * 25e-12},
+                                             {"max_tension [N/m]", 0.5 * 2e-5},
+                                             {"max_stretch", 1.4},
+                                             {"max_area_stretch", 1.6},
+                                             {"front_stretch", 1.2},
                                              {"growth_rate [s-1]", -0.2 * velocity / 5e-6}};
     if (std::string(along) == "flow.capillary_number")
       by_hand["physical.flow_rate [m3/s]"] = velocity * std::numbers::pi * 25e-12;
