@@ -121,7 +121,7 @@ std::string failed_check(const std::string &id, const Row &row) {
       "class=\"reason\" colspan=\"6\">Expected by the case itself; <code>capsule check</code> compares. "
       "<code>{6}</code></td></tr></tbody>\n",
       escaped(id), cell("", row.at("quantity") + (row.at("run").empty() ? "" : ", " + row.at("run"))),
-      cell("expected", row.at("published"), "published"),
+      cell("expected", row.at("expected"), "published"),
       cell("ours", with_error(row.at("computed"), row.at("own error"))), cell("distance", row.at("distance")),
       cell("verdict", row.at("verdict"), "failed"), escaped(row.at("id")));
 }

@@ -1,6 +1,7 @@
 #include "html.hpp"
 #include "base/atomic_file.hpp"
 #include "base/csv.hpp"
+#include "base/text.hpp"
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -76,8 +77,10 @@ std::string with_subscripts(std::string_view text) {
   std::string html;
   for (std::size_t i = 0; i < text.size();) {
     if (const auto number = exponential(text, i)) {
-      html += fmt::format("{}·10<sup>{}</sup>", text.substr(i, number->e - i),
-                          std::stoi(std::string(text.substr(number->e + 1, number->end - number->e - 1))));
+      const std::string power =
+          std::to_string(std::stoi(std::string(text.substr(number->e + 1, number->end - number->e - 1))));
+      html +=
+          fmt::format("{}·10<sup>{}</sup>", text.substr(i, number->e - i), capsule::with_minus_signs(power));
       i = number->end;
       continue;
     }
@@ -86,7 +89,8 @@ std::string with_subscripts(std::string_view text) {
                             : text[i] == '^' ? end_of_power(text, i + 1)
                                              : i + 1;
     if (end > i + 1)
-      html += fmt::format("<{0}>{1}</{0}>", lower ? "sub" : "sup", text.substr(i + 1, end - i - 1));
+      html += fmt::format("<{0}>{1}</{0}>", lower ? "sub" : "sup",
+                          capsule::with_minus_signs(text.substr(i + 1, end - i - 1)));
     else
       html += text[i];
     i = std::max(end, i + 1);
@@ -112,7 +116,7 @@ std::string between_marks(const std::string &text, const std::string &mark, Insi
 
 std::string table_cell(const std::string &column, const std::string &text) {
   std::string style = verdict_style(text);
-  if (style.empty() && column.starts_with("published"))
+  if (style.empty() && (column.starts_with("published") || column == "expected"))
     style = "published";
   return style.empty() ? fmt::format("<td>{}</td>", prose(text))
                        : fmt::format("<td class=\"{}\">{}</td>", style, prose(text));
@@ -150,8 +154,9 @@ std::string prose(const std::string &text) {
   const auto words = [&](const std::string &part) {
     return between_marks(part, "**", element("strong"), [](const std::string &plain) { return plain; });
   };
-  return between_marks(escaped(text), "`", element("code"),
-                       [&](const std::string &part) { return words(with_subscripts(part)); });
+  return between_marks(escaped(text), "`", element("code"), [&](const std::string &part) {
+    return words(with_subscripts(capsule::with_minus_signs(part)));
+  });
 }
 
 std::string caption(const fs::path &markdown) {

@@ -101,14 +101,15 @@
     return { pen, width, height };
   };
 
-  // Text in the middle of a place; the letter after _ is set lower, that after ^ higher.
-  const write_label = (pen, text, x, y) => {
+  // Text in the middle of a place, or with another part of it to the left of there; the letter after _ is set lower, that
+  // after ^ higher.
+  const write_label = (pen, text, x, y, part = 0.5) => {
     const parts = [...text.matchAll(/([_^]?)([^_^])/g)].map(([, mark, letter]) => {
       pen.font = `${mark ? 10 : 13}px sans-serif`;
       return { mark, letter, width: pen.measureText(letter).width };
     });
     pen.textAlign = "left";
-    let at = x - parts.reduce((sum, { width }) => sum + width, 0) / 2;
+    let at = x - part * parts.reduce((sum, { width }) => sum + width, 0);
     for (const { mark, letter, width } of parts) {
       pen.font = `${mark ? 10 : 13}px sans-serif`;
       pen.fillText(letter, at, y + { "": 0, _: 4, "^": -5 }[mark]);
@@ -207,6 +208,7 @@
     const size = 10 ** Math.floor(Math.log10(range / wanted));
     return size * [1, 2, 5, 10].find((factor) => range / (factor * size) <= wanted);
   };
+  const tick = (value) => String(+value.toPrecision(6)).replace("-", "−");
   const margin = { left: 56, right: 12, top: 12, bottom: 40 };
   const draw_curve = (instant) => {
     const { pen, width, height } = open_canvas(curve);
@@ -223,11 +225,11 @@
     pen.textAlign = "center";
     const step_x = step_of(right - left, width / 50), step_y = step_of(top - bottom, height / 28);
     for (let x = step_x * Math.ceil(left / step_x); x <= right; x += step_x)
-      pen.fillText(+x.toPrecision(6), at_x(x), height - margin.bottom + 16);
+      pen.fillText(tick(x), at_x(x), height - margin.bottom + 16);
     write_label(pen, clock() === "time" ? "t / (πR_t^3/Q)" : "x_g / R_t", (margin.left + width - margin.right) / 2, height - 8);
     pen.textAlign = "right";
     for (let y = step_y * Math.ceil(bottom / step_y); y <= top; y += step_y)
-      pen.fillText(+y.toPrecision(6), margin.left - 6, at_y(y) + 4);
+      pen.fillText(tick(y), margin.left - 6, at_y(y) + 4);
     pen.save();
     pen.translate(14, (height - margin.bottom + margin.top) / 2);
     pen.rotate(-Math.PI / 2);
@@ -286,9 +288,10 @@
     const instant = slider.valueAsNumber;
     [slider.min, slider.max] = range_of(shown_runs().flatMap(({ frames }) => [frames[0][clock()], frames[frames.length - 1][clock()]]));
     slider.value = instant;
-    const links = shown_runs().flatMap(({ directory }, i) => ["series.csv", "profiles.csv"].map((name) => {
+    const links = shown_runs().flatMap(({ directory, frames }, i) => frames[0].capsules.flatMap((capsule, k) =>
+      ["series", "profiles"].map((table) => `${table}${k ? `-${k + 1}` : ""}.csv`)).map((name) => {
       const path = [...directory.split("/"), name].map(encodeURIComponent).join("/");
-      return Object.assign(document.createElement("a"), { href: path, textContent: i ? `second ${name}` : name });
+      return Object.assign(document.createElement("a"), { href: path, textContent: i ? `second run: ${name}` : name });
     }));
     by_id("which").textContent = described_runs().join("; ");
     by_id("data").replaceChildren("Data, beside this page:", ...links);
@@ -347,19 +350,20 @@
 
   // Both pictures on one sheet, with the names of the runs.
   const save = () => {
-    const sheet = document.createElement("canvas"), dots = window.devicePixelRatio || 1, line = 22 * dots;
-    const names = described_runs();
-    names.push(`${clock() === "time" ? "t" : "x_g"} = ${slider.valueAsNumber.toFixed(2)}`);
+    const sheet = document.createElement("canvas"), dots = window.devicePixelRatio || 1, line = 22;
+    const names = described_runs(), below = (names.length + 1.5) * line;
     sheet.width = pore.width;
-    sheet.height = pore.height + curve.height + (names.length + 0.5) * line;
+    sheet.height = pore.height + curve.height + below * dots;
     const pen = sheet.getContext("2d");
     pen.fillStyle = style("--paper");
     pen.fillRect(0, 0, sheet.width, sheet.height);
+    pen.drawImage(pore, 0, below * dots);
+    pen.drawImage(curve, 0, below * dots + pore.height);
+    pen.scale(dots, dots);
     pen.fillStyle = style("--ink");
-    pen.font = `${14 * dots}px sans-serif`;
-    names.forEach((name, i) => pen.fillText(name, 8 * dots, (i + 0.8) * line));
-    pen.drawImage(pore, 0, (names.length + 0.5) * line);
-    pen.drawImage(curve, 0, (names.length + 0.5) * line + pore.height);
+    pen.font = "13px sans-serif";
+    names.forEach((name, i) => pen.fillText(name, 8, (i + 0.8) * line));
+    write_label(pen, `${clock() === "time" ? "t" : "x_g"} = ${slider.valueAsNumber.toFixed(2).replace("-", "−")}`, 8, (names.length + 0.8) * line, 0);
     const name = `${chosen_run().directory.replace(/^results\//, "").replace(/[^\w.=,-]+/g, "-")}.png`;
     Object.assign(document.createElement("a"), { href: sheet.toDataURL(), download: name }).click();
   };

@@ -1,6 +1,7 @@
 #include "player_data.hpp"
 #include "base/atomic_file.hpp"
 #include "base/csv.hpp"
+#include "base/text.hpp"
 #include "law/law.hpp"
 #include <algorithm>
 #include <cmath>
@@ -138,8 +139,20 @@ Json player_series(const fs::path &run, const Json &estimates) {
   return series;
 }
 
-// Which capsule in which flow, in parts: "sphere", "Skalak C = 0", "size 0.9", "ε = 0.04", "λ = 10". Where several differ,
-// what each has.
+// Physical keys of a run in its name, where they were given.
+const std::vector<std::pair<std::string, std::string>> physical_parts = {
+    {"physical.capsule_radius", "radius"},
+    {"physical.flow_rate", "Q ="},
+    {"physical.pressure", "pressure"},
+    {"physical.shear_modulus", "G ="},
+    {"physical.young_modulus", "Young's modulus"},
+    {"physical.viscosity", "viscosity"},
+    {"physical.internal_viscosity", "inside"},
+    {"physical.bending_modulus", "bending"},
+    {"physical.tube_radius", "tube"}};
+
+// Which capsule in which flow, in parts: "sphere", "Skalak C = 0", "size 0.9", "ε = 0.04", "λ = 10"; what was given with a unit
+// as it was typed, "radius 40 um", "Q = 10 nl/s". Where several capsules differ, what each has.
 std::vector<std::string> parts_of_name(const Json &parameters) {
   const auto values = [&](const std::string &key) {
     const Json &value = parameters.at(key);
@@ -148,9 +161,10 @@ std::vector<std::string> parts_of_name(const Json &parameters) {
   const auto number = [&](const std::string &key) {
     std::vector<std::string> texts;
     for (const Json &value : values(key))
-      texts.push_back(fmt::format("{:.4g}", value.get<double>()));
+      texts.push_back(capsule::with_minus_signs(fmt::format("{:.4g}", value.get<double>())));
     return fmt::format("{}", fmt::join(texts, " and "));
   };
+  const auto is_typed = [&](const std::string &key) { return !parameters.at("physical." + key).is_null(); };
   const Json &aspect_ratio = parameters.at("capsule.aspect_ratio");
   std::vector<std::string> parts = {aspect_ratio.is_null() ? "biconcave"
                                     : aspect_ratio == 1.0
@@ -164,9 +178,19 @@ std::vector<std::string> parts_of_name(const Json &parameters) {
         parts.back() +=
             fmt::format(" {} = {}", declared.symbol, number(std::string("membrane.") + declared.name));
     }
-  parts.push_back("size " + number("capsule.radius"));
-  parts.push_back("ε = " + number("flow.capillary_number"));
-  parts.push_back("λ = " + number("flow.viscosity_ratio"));
+  for (const auto &[key, title] : physical_parts)
+    if (!parameters.at(key).is_null()) {
+      std::vector<std::string> texts;
+      for (const Json &value : values(key))
+        texts.push_back(value.get<std::string>());
+      parts.push_back(fmt::format("{} {}", title, fmt::join(texts, " and ")));
+    }
+  if (!is_typed("capsule_radius"))
+    parts.push_back("size " + number("capsule.radius"));
+  if (!is_typed("flow_rate") && !is_typed("pressure"))
+    parts.push_back("ε = " + number("flow.capillary_number"));
+  if (!is_typed("internal_viscosity"))
+    parts.push_back("λ = " + number("flow.viscosity_ratio"));
   if (parameters.at("membrane.shear_viscosity") != 0.0)
     parts.push_back("viscous membrane " + number("membrane.shear_viscosity"));
   if (parameters.at("capsule.start_x").is_array())

@@ -51,7 +51,15 @@ profiles_at_x_g = [-2.4, -2.3, -2.2, -2.1, -2, -1.9, -1.8, -1.7, -1.6, -1.5, -1.
 "flow.viscosity_ratio" = [1, 3]
 END
 mkdir -p cases/two
-sed '/^start_x/s/-2.5/[-2.5, -4.2]/; /sweep/,$d' cases/small/case.toml > cases/two/case.toml
+sed '/^start_x/s/-2.5/[-2.5, -4.2]/; /sweep/,$d; /^radius/d; /^.flow/d; /^capillary/d' cases/small/case.toml > cases/two/case.toml
+cat >> cases/two/case.toml << 'END'
+[physical]
+tube_radius = "50 um"
+capsule_radius = "35 um"
+viscosity = "1 Pa.s"
+flow_rate = "20 nl/s"
+shear_modulus = "51 mN/m"
+END
 "$capsule" run cases/small > /dev/null 2>&1
 "$capsule" run cases/two > /dev/null 2>&1
 mkdir -p figures/small tables validation/uncomputed
@@ -67,7 +75,7 @@ C,C-1,Figure 8,number,x_g at t 18.7,3.44,,3.398205,7e-06,-0.042,0.005,differs,,n
 D,D-1,Table 1,number,"x_g, N_M 60",11.7255558,,11.7254,,,,not decidable,,not said,,
 END
 cat > tables/small.csv << 'END'
-id,where,run,quantity,computed,converged,own error,published,distance,allowed,verdict
+id,where,run,quantity,computed,converged,own error,expected,distance,allowed,verdict
 film,,viscosity_ratio=1,min_film,0.1234,,1e-05,>0,+0.12,,agrees
 drop,,viscosity_ratio=3,"max(pressure_drop@x_g=-1..0, 2)",3.21,,0.001,4.5,-29 %,1 %,"differs, NOT AS RECORDED"
 ALL-dV,Section 4.2,viscosity_ratio=3,volume_change,1e-9,,,<0.001,-0.001,,agrees
@@ -75,7 +83,7 @@ END
 echo '# What is not computed?' > validation/uncomputed/README.md
 "$report" page.html cases/small cases/two validation/uncomputed
 grep -q 'What is not computed? <code>cmake --build build --target study-uncomputed</code>' page.html || fail "a missing study is not named"
-grep -q '<figcaption><strong>Figure 5a.</strong> Profiles at x<sub>g</sub> = 2: they differ by 1·10<sup>-5</sup> in max_stretch, like N<sup>-1.05</sup> and 10<sup>4</sup>[.]' page.html ||
+grep -q '<figcaption><strong>Figure 5a.</strong> Profiles at x<sub>g</sub> = 2: they differ by 1·10<sup>−5</sup> in max_stretch, like N<sup>−1.05</sup> and 10<sup>4</sup>[.]' page.html ||
   fail "the caption's symbols"
 grep -q '<li><a href="#small-shape">Figure 5a</a> Profiles at x<sub>g</sub> = 2</li>' page.html || fail "the list of figures"
 if grep -Eo '(src|href)="(https?:)?//[^"]*"' page.html; then
@@ -124,7 +132,7 @@ expect "the readout has as many decimals as the estimated error leaves" true "$(
 expect "the solid around the pore is drawn" '#c9ced4' "$(script '(() => {
   const pore = document.getElementById("pore"), corner = pore.getContext("2d").getImageData(pore.width - 3, 3, 1, 1).data;
   return "#" + [...corner.slice(0, 3)].map((part) => part.toString(16)).join("") })()')"
-expect "a run is called by what differs in its case" "λ = 1 / λ = 3 / sphere, Skalak C = 1, size 0.7, ε = 0.05, λ = 1, starting at -2.5 and -4.2" \
+expect "a run is called by what differs in its case" "λ = 1 / λ = 3 / sphere, Skalak C = 1, radius 35 um, Q = 20 nl/s, G = 51 mN/m, viscosity 1 Pa.s, tube 50 um, λ = 1, starting at −2.5 and −4.2" \
   "$(script '[...document.getElementById("run").options].map((option) => option.text).join(" / ").replace(/, \d+ nodes/, "")')"
 expect "what is shown is described" "small: sphere, Skalak C = 1, size 0.7, ε = 0.05, λ = 1" "$(script 'document.getElementById("which").textContent.replace(/, \d+ nodes/, "")')"
 expect "the colours have a scale" true "$(script '(() => {
@@ -175,6 +183,10 @@ expect "a run of two capsules has both in each frame" true "$(script '(() => {
 before=$(script "$drawing" | cksum)
 call POST "$at/element/$(element run)/value" '{"text": "\uE015"}' > /dev/null
 test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not follow the run of two capsules"
+expect "the files of both capsules are linked" "series.csv profiles.csv series-2.csv profiles-2.csv true" "$(script '(() => {
+  const links = [...document.querySelectorAll("#data a")];
+  return [...links.map((link) => link.textContent), links.every(({ href }) => href.includes("results/two/"))].join(" ") })()')"
+test -s "$(script 'decodeURIComponent(new URL(document.querySelectorAll("#data a")[2].href).pathname)')" || fail "the link to series-2.csv"
 picture two
 choose() { # element, value
   script "(() => { const choice = document.getElementById('$1'); choice.value = '$2'; choice.dispatchEvent(new Event('change')) })()" > /dev/null
@@ -227,7 +239,7 @@ expect "a sum is a filter, of all rows of its claims" mesh,mesh "$(script "$show
 script 'document.querySelector("#sums button").click()' > /dev/null
 call POST "$at/element/$(element find)/value" '{"text": "table v"}' > /dev/null
 expect "words are found" agrees,agrees "$(script "$shown")"
-expect "a number has the digits that its error leaves" "1.301742 ± 2·10-6" "$(script 'document.querySelector("#claims tbody[data-outcome=agrees] td[data-label=ours]").textContent')"
+expect "a number has the digits that its error leaves" "1.301742 ± 2·10−6" "$(script 'document.querySelector("#claims tbody[data-outcome=agrees] td[data-label=ours]").textContent')"
 
 expect "figures begin small" false "$(script 'document.getElementById("enlarged").open')"
 script 'document.querySelector("button.enlarge").click()' > /dev/null
