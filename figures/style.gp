@@ -86,8 +86,8 @@ set linetype 3 linewidth 1.5 linecolor rgb "#0072B2" dashtype (4, 3) pointtype 8
 set linetype 4 linewidth 1.5 linecolor rgb "#009E73" dashtype (10, 3, 2, 3) pointtype 12
 set linetype 5 linewidth 1.5 linecolor rgb "#CC79A7" dashtype (2, 2) pointtype 10
 set linetype 6 linewidth 1.5 linecolor rgb "#E69F00" dashtype (8, 2, 2, 2, 2, 2) pointtype 2
-# The same one for a viscosity ratio in all figures of the paper's; run i has its own for another ratio.
-linetype_of_ratio(ratio, i) = ratio == 0.2 ? 1 : ratio == 1 ? 2 : ratio == 5 ? 3 : ratio == 10 ? 4 : i
+# The same one for a viscosity ratio in all figures; a ratio that the paper has not has the given one.
+linetype_of_ratio(ratio, other) = ratio == 1 ? 1 : ratio == 0.2 ? 2 : ratio == 5 ? 3 : ratio == 10 ? 4 : other
 # A law as people write it.
 law_title(law) = law eq "neo-hookean" ? "neo-Hookean" : law eq "skalak" ? "Skalak" : law
 wall_colour = "#D8D8D8"
@@ -113,7 +113,7 @@ figure(name, width, height) = "reset; ".terminal(width, height)."; ".defaults. \
   sprintf("print '![%s](%s/%s.png)', \"\n\"", name, case, name)
 defaults = "set encoding utf8; set datafile separator ','; set datafile columnheaders; set datafile missing NaN; \
   set samples 400; set angles radians; set border 3 linewidth 0.8; set tics nomirror scale 0.6; \
-  set key noautotitle Left reverse samplen 2.5 spacing 1.2;"
+  set key noautotitle Left reverse samplen 2.5 spacing 1.2; set minussign;"
 
 # `eval table("table2")` opens a table of comma-separated rows for `print`; `eval end_table("table2")` writes it as
 # Markdown, too. Tables of a case that the paper's values speak of lie beside the figures, in the directory tables; those of
@@ -123,8 +123,9 @@ tables = of_the_paper > 0 ? out."/../tables" : pictures
 table(name) = sprintf("set print tables.'/%s.csv'", name)
 end_table(name) = sprintf("set print; end_table_ = system(as_markdown(tables.'/%s'))", name)
 as_markdown(file) = "sed 's/,/ | /g; s/^/| /; s/$/ |/; ".plain_numbers."; 1{p; s/[^|]\\+/ --- /g}' ".quoted(file.".csv")." > ".quoted(file.".md")
-# As people write them: 1e-6 for 1e-06, 0.00 for -0.00.
-plain_numbers = 's/\([0-9]e\)+*\(-*\)0\([0-9]\)/\1\2\3/g; s/\(^\|[ (]\)-\(0\.0*\)\([^0-9]\|$\)/\1\2\3/g'
+# As people write them: 1e-6 for 1e-06, 0.00 for -0.00, −1 for -1.
+plain_numbers = 's/\([0-9]e\)+*\(-*\)0\([0-9]\)/\1\2\3/g; s/\(^\|[ (]\)-\(0\.0*\)\([^0-9]\|$\)/\1\2\3/g; \
+  s/\(^\|[ (]\)-\([0-9]\)/\1−\2/g'
 # A cell: the number in this format, empty where there is none.
 cell(form, x) = x == x ? sprintf(form, x) : ""
 
@@ -162,7 +163,9 @@ do for [format in "svg png"] {
 }
 captions = quoted(pictures)."/*.md"
 rewritten = system("for file in ".captions."; do [ ! -e \"$file\" ] || sed -i '".plain_numbers."' \"$file\"; done")
-# A caption with a number that is not there.
+# A caption with a number that is not there, or that begins with one.
 set print "-"
+numbered = system("grep -lE -- '^(\\*\\*)?[-−0-9]' ".captions)
+if (numbered ne "") { print "warning: a caption begins with a number in ".numbered }
 incomplete = system("grep -lwiE -- '-?nan' ".quoted(pictures)."/*.md")
 if (incomplete ne "") { print "warning: a number is missing in ".incomplete }

@@ -204,7 +204,8 @@ expect 0 '^tube_radius = "5 um"' "$capsule" show physical.toml
 expect 2 "^did you mean '4 um'" "$capsule" show physical.toml --set 'physical.capsule_radius=4 ym'
 expect 2 "^--set:1:25: error: physical.capsule_radius: '4 s' is a time, not a length" \
   "$capsule" show physical.toml --set 'physical.capsule_radius=4 s'
-expect 0 '^# the Reynolds number is 0.0064 .of a liquid of 1000 kg/m3.$' "$capsule" show physical.toml
+expect 0 '^# Re is the Reynolds number of a liquid of 1000 kg/m3$' "$capsule" show physical.toml
+expect 0 '^# physical  neo-hookean  0.8   0.06366  .*  0.1 nL/s  0.0064  ' "$capsule" show physical.toml
 expect 0 '^# the Reynolds number is 32 .*: not small, but the model has no inertia$' \
   "$capsule" show physical.toml --set physical.flow_rate=0.5ul/s
 expect 0 '^capillary_number = 0.0636619' "$capsule" show physical.toml --set flow.capillary_number=0.06366
@@ -311,6 +312,7 @@ expect 0 "a viscosity such as '1 mPa.s'" "$capsule" keys
 expect 0 '^ *symbol: epsilon, eps, Ca, ε$' "$capsule" keys
 expect 0 '^membrane.law ' "$capsule" keys membrane
 expect 0 '^flow.capillary_number ' "$capsule" keys eps
+expect 1 'no empty line' sh -c "'$capsule' keys eps | sed 1q | grep '^$' || { echo no empty line; false; }"
 expect 1 'no such key' sh -c "'$capsule' keys membrane | grep '^flow[.]' || { echo no such key; false; }"
 expect 2 "^did you mean 'membrane.bending_ratio'[?]$" "$capsule" keys bendin_ratio
 for command in run steady branch fit check ledger new; do

@@ -12,7 +12,7 @@ do for [part in "a b"] {
   eval view(-5.2, 13, -2, 2)
   set xtics 1; set ytics 1
   plot @wall, for [p in positions] outline(profiles(shown), "x_g", p + 0) using 1:2 with @capsule_fill, \
-    for [p in positions] outline(profiles(shown), "x_g", p + 0) using 1:2 with lines linetype 1
+    for [p in positions] outline(profiles(shown), "x_g", p + 0) using 1:2 with lines linetype linetype_of_ratio(1, 1)
   if (part eq "a") {
     print sprintf("**Figure 6a.** Successive profiles of the sphere for λ = %g.", parameter(shown, "flow.viscosity_ratio")), \
       "It elongates in the mouth and settles to a", \

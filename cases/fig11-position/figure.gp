@@ -7,7 +7,8 @@ eval figure("fig11", 12, 8)
 set xrange [0:32]; set yrange [-4:12]
 set xlabel time_label; set ylabel x_g_label
 set key at 1, 11.5 left top
-plot for [i=1:count] series(run(i)) using "time":"x_g" with lines linetype i title name(i)
+plot for [i=1:count] series(run(i)) using "time":"x_g" with lines \
+  linetype linetype_of_ratio(parameter(run(i), "flow.viscosity_ratio"), i) dashtype i title name(i)
 print "**Figure 11.** Position of the centre of mass in time, at a viscosity ratio of", \
   sprintf("%g. The ellipsoid is at x_g = 1 at t = %.1f, the sphere at %.1f;", \
           parameter(run(1), "flow.viscosity_ratio"), time_at(count, 1), time_at(1, 1)), \

@@ -59,7 +59,7 @@ plot $meshes using "width":"published_vr" with points linetype 1 @published_mark
   $meshes using "width":"stored_vr" with points linetype 2 pointtype 5 title "its numerics, here", \
   default_vr with lines linetype 3 title "standard preset"
 set yrange [1e-9:1e-2]
-set ylabel "|{/:Italic V} – {/:Italic V}_{ini}| / {/:Italic V}_{ini}"
+set ylabel "|{/:Italic V} − {/:Italic V}_{ini}| / {/:Italic V}_{ini}"
 plot $meshes using "width":"published_dV" with points linetype 1 @published_mark, \
   power(x) with lines linetype 1 title sprintf("order %.1f", published_dV_slope), \
   $meshes using "width":"stored_dV" with points linetype 2 pointtype 5, \

@@ -11,7 +11,7 @@ do for [i=1:4] {
 eval figure("delta-search", 12, 8)
 set logscale x; set format x "10^{%T}"
 set xrange [5e-7:2e-3]; set yrange [0.99:1.14]
-set xlabel "{/:Italic δ}"; set ylabel "Δ{/:Italic P} / Δ{/:Italic P} at {/:Italic δ} = 10^{-3}"
+set xlabel "{/:Italic δ}"; set ylabel "Δ{/:Italic P} / Δ{/:Italic P} at {/:Italic δ} = 10^{−3}"
 plot for [i=1:4] table using "bending_ratio":(of(i, "coarse", "pressure_drop") / stiff[i]) with points linetype i title word(names, i), \
   for [i=1:4] table using "bending_ratio":(of(i, "fine", "pressure_drop") / stiff[i]) with points linetype i pointtype 2
 print "**Stiffness.** Pressure drop at the end against the bending stiffness, for runs that pass (open marks; crosses: on the finer mesh).", \

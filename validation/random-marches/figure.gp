@@ -25,7 +25,7 @@ plot x with lines linetype 1 linecolor rgb "#808080" title "error", \
   of(single).estimates using "difference":"estimate" with points pointtype 7 pointsize 0.3 linecolor rgb "#A0A0A0" title "at the end, peak", \
   of(way).estimates using "difference":"estimate" with points linetype 2 pointtype 6 pointsize 0.4 title "largest on the way"
 unset multiplot
-print sprintf("**%d random marches.** Of these %d arrive, %d end before, and %d take more work than the study may.", \
+print sprintf("**Random marches.** Of %d, %d arrive, %d end before, and %d take more work than the study may.", \
     ends("$1 != \"\""), ends(arrived), ends(failed), ends(long)), \
   sprintf("Of those that end before, %d arrive on a finer mesh, and the advice helps %d.", \
     ends(failed." && $k[\"refined_end\"] == \"reached\""), ends(failed." && $k[\"helps\"] != \"nothing\"")), \

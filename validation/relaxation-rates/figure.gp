@@ -18,9 +18,10 @@ plot for [i=1:3] plain(2, word("0 1 10", i) + 0) using 4:8 with lines linetype i
 set xrange [0.7:1.4e4]; set yrange [1e-7:1]; set format "10^{%T}"
 set xlabel "{/:Italic C}"; set ylabel "relaxation time over its limit, less 1"
 set key bottom left
+ratio(i) = word("0.2 1 5", i) + 0
 limit(ratio, shear) = sprintf("< awk -F, 'NR == 1 || $2 == %g && $3 == %g && $4 == 2' %s", ratio, shear, limits)
-plot for [i=1:3] limit(word("0.2 1 5", i) + 0, 0) using 1:6 with linespoints linetype i pointtype 7 pointsize 0.4 title sprintf("{/:Italic λ} = %s", word("0.2 1 5", i)), \
-  for [i=1:3] limit(word("0.2 1 5", i) + 0, 10) using 1:6 with linespoints linetype i dashtype 2 pointtype 6 pointsize 0.5 title i == 1 ? "{/:Italic μ_s} = 10" : "", \
+plot for [i=1:3] limit(ratio(i), 0) using 1:6 with linespoints linetype linetype_of_ratio(ratio(i), i) dashtype 1 pointtype 7 pointsize 0.4 title sprintf("{/:Italic λ} = %g", ratio(i)), \
+  for [i=1:3] limit(ratio(i), 10) using 1:6 with linespoints linetype linetype_of_ratio(ratio(i), i) dashtype 2 pointtype 6 pointsize 0.5 title i == 1 ? "{/:Italic μ_s} = 10" : "", \
   [10:1e4] 0.3 / x with lines linecolor rgb "#808080" title "∝ 1/{/:Italic C}"
 unset multiplot
 print "**Spheres at rest.** Left: rates at which P_2 and P_3 decay, exact (lines) and by the solver (points): all rates of P_2 to P_6,", \

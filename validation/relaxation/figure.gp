@@ -24,12 +24,12 @@ set key top left
 plot rows using ($0 - 0.24):"radial_predicted" with points linetype 1 pointtype 1 pointsize 1.5 title "max |{/:Italic v_r}|: small motions", \
   rows using ($0 - 0.16):"radial_in_paper" with points linetype 1 pointtype 4 title "march in the paper's tube", \
   rows using ($0 - 0.08):"radial_published" with points linetype 1 pointtype 7 title "published", \
-  rows using ($0 + 0.08):"axial_predicted" with points linetype 2 pointtype 1 pointsize 1.5 title "max |{/:Italic v_x - v}_g|: small motions", \
+  rows using ($0 + 0.08):"axial_predicted" with points linetype 2 pointtype 1 pointsize 1.5 title "max |{/:Italic v_x − v}_g|: small motions", \
   rows using ($0 + 0.16):"axial_in_paper" with points linetype 2 pointtype 4 title "march in the paper's tube", \
   rows using ($0 + 0.24):"axial_published" with points linetype 2 pointtype 7 title "published"
 print "**The residual velocities of Tables 1 and 2.** Those of a march at x_g = 9, continued by all small motions about the steady state to", \
   "the place of the tables; marches in the paper's tube; and published ones.", \
-  sprintf("For λ = 10, max |v_r| is %.2e by the small motions, %.2e in the march, %.2e in the table; max |v_x - v_g| is %.2e, %.2e and %.2e.", \
+  sprintf("For λ = 10, max |v_r| is %.2e by the small motions, %.2e in the march, %.2e in the table; max |v_x − v_g| is %.2e, %.2e and %.2e.", \
     cell_of("Table 2 10", "radial_predicted"), cell_of("Table 2 10", "radial_in_paper"), cell_of("Table 2 10", "radial_published"), \
     cell_of("Table 2 10", "axial_predicted"), cell_of("Table 2 10", "axial_in_paper"), cell_of("Table 2 10", "axial_published")), \
   sprintf("To be as steady as the table calls the others, 2.1e-5, it would need a tube in which it gets to x_g = %.1f (in the march: %.1f).", \

@@ -19,7 +19,7 @@ set logscale xy; set xrange [1.8:10]; set yrange [1e-4:1e-2]; set format y "10^{
 set xlabel "distance of the centres / {/:Italic R}_t"; set ylabel "change of the second one's speed"
 set key top right
 plot distances using "distance":"change" with linespoints linetype 1 notitle, \
-  0.0165*x**-2 with lines linecolor "gray" dashtype 2 title "distance^{-2}"
+  0.0165*x**-2 with lines linecolor "gray" dashtype 2 title "distance^{−2}"
 print "**In the reservoir** capsules feel each other farther than in the tube: the first one is 6 radii in front of the mouth, the second one behind it."
 
 eval figure("errors", 17, 9)

@@ -24,6 +24,8 @@ fit_power(file, x, y, first) = sprintf("stats '%s' using (log(column('%s'))):(lo
   file, x, y, first)
 columns = "lambda1 lambda5 paper"
 column_title(c) = word("{/:Italic@λ}@=@1 {/:Italic@λ}@=@5 paper's@numerics", c)
+# Of a column: two have a viscosity ratio, the last one has none.
+line(c) = linetype_of_ratio(word("1 5 0", c) + 0, 5)
 kinds = "membrane wall"
 array membrane_power[3]; array wall_power[3]; array scene_power[3]
 do for [c=1:3] {
@@ -80,11 +82,11 @@ set format y "10^{%T}"
 set xlabel "nodes of the membrane, {/:Italic N}_M"; set ylabel "CPU seconds of a velocity"
 set xrange [28:300]; set xtics (32, 64, 128, 256)
 set yrange [2e-5:1]
-plot for [c=1:3] data."growth-membrane.csv" using "nodes":word(columns, c) with linespoints linetype c \
+plot for [c=1:3] data."growth-membrane.csv" using "nodes":word(columns, c) with linespoints linetype line(c) \
   title titled(column_title(c), membrane_power[c])
 set xlabel "elements or points of the wall, {/:Italic N}_B"
 set xrange [50:600]; set xtics (60, 120, 240, 480)
-plot for [c=1:3] data."growth-wall.csv" using "elements":word(columns, c) with linespoints linetype c \
+plot for [c=1:3] data."growth-wall.csv" using "elements":word(columns, c) with linespoints linetype line(c) \
   title titled(column_title(c), wall_power[c])
 set xlabel "accuracy asked for"; set ylabel "CPU seconds of an entrance"
 set format x "10^{%T}"; set xtics auto

@@ -18,9 +18,9 @@ set xrange [0.015:0.2]; set yrange [2e-8:1e-2]; set xtics (0.02, 0.05, 0.1, 0.2)
 set key bottom right
 set xlabel "{/:Italic ε}"; set ylabel "smallest {/:Italic δ} without wrinkles"
 plot for [n in "40 64 80"] thresholds using "capillary_number":(of(n + 0, "stiffness")) \
-    with linespoints linetype n < 50 ? 3 : n < 70 ? 2 : 1 title "dents of 10^{-4}, ".n." nodes", \
+    with linespoints linetype n < 50 ? 3 : n < 70 ? 2 : 1 title "dents of 10^{−4}, ".n." nodes", \
   for [k in "3 5 6"] thresholds using "capillary_number":(dents(10 ** -k)) with points linetype 4 pointtype 2 * k - 1 \
-    title "dents of 10^{-".k."}, 80 nodes", \
+    title "dents of 10^{−".k."}, 80 nodes", \
   thresholds using "capillary_number":(of(80, "predicted")) with lines linetype 5 title "static buckling of a sphere"
 print "**Wrinkles.** Smallest bending stiffness with which dents of a given depth (in radii), the same on every mesh, do not become", \
   "wrinkles on the way of a neo-Hookean sphere of radius 0.8 into the tube. With dents of a ten-thousandth:", \

@@ -18,7 +18,7 @@ plot quadrature using "film_over_panel":(of("single", 12, 1)) with lines linetyp
   quadrature using "film_over_panel":(of("double", 5, 1)) with lines linewidth 1 linecolor rgb "#808080" \
     title "five points, double layer", \
   for [d in "6 8 10"] quadrature using "film_over_panel":(of("double", 12, 10 ** -d)) with lines linetype d / 2 \
-    title "near rule, tolerance 10^{-".d."}"
+    title "near rule, tolerance 10^{−".d."}"
 print "**Quadrature of a thin film.** Error of the velocity beside a spheroid on 16 panels of 12 points, against a finely divided", \
   sprintf("one, for films from %.0e to %.1f of a panel. Gauss's rule alone is wrong by up to %.2g; the near rule never by more", \
     film_min, film_max, gauss_max), \
@@ -38,10 +38,10 @@ set logscale y; set format y "10^{%T}"
 set xrange [0.85:1.35]; set yrange [1e-5:1]
 set xlabel "{/:Italic R}_{eq} / {/:Italic R}_t"; set ylabel "film at the end / {/:Italic R}_t"
 set key outside top center maxrows 3
-plot for [i=1:3] plugs using "radius":(on(96, 10 ** (i - 1), 1, "min_film")) with linespoints linetype linetype_of_ratio(10 ** (i - 1), 1) \
+plot for [i=1:3] plugs using "radius":(on(96, 10 ** (i - 1), 1, "min_film")) with linespoints linetype linetype_of_ratio(10 ** (i - 1), 2) \
     title sprintf("{/:Italic λ} = %d", 10 ** (i - 1)), \
   for [n in "48 96"] plugs using (column("radius") + (n == 48 ? -0.004 : 0.004)):(shown(on(n, 100, 0, "min_film"))) \
-    with points linetype n / 24 + 1 pointtype n / 12 + 3 title "{/:Italic λ} = 100, failed, ".n." nodes"
+    with points linetype 2 pointtype n / 12 + 3 title "{/:Italic λ} = 100, failed, ".n." nodes"
 print "**Nearly plugged.** Film of Skalak capsules (C = 1, ε = 0.05, 96 nodes) at x_g = 3 against their size: sizes up to", \
   sprintf("%.1f enter, with films down to %.3f with λ = 1 and %.3f with λ = 10. A capsule a hundred times as viscous as the", \
     size_max, thick_min, thin_min), \

@@ -23,7 +23,7 @@ plot meshes using ($2 == finest ? $1 : NaN):"curvature" with linespoints linetyp
   folds using "bending_ratio":"nodes" with points linetype 2 title "nodes for 1 % of it", \
   [hard / 3:1e-3] nodes_at_end * (x / hard) ** q with lines linetype 2 linewidth 0.7 dashtype 3 title sprintf("δ^{%.2f}", q), \
   for [i = 1:words(sizes)] "+" using (last_of(word(sizes, i))):(word(sizes, i) + 0) every ::::0 with points linetype 3 \
-    title i == 1 ? "softest membrane of a mesh (tried to 10^{-6})" : ""
+    title i == 1 ? "softest membrane of a mesh (tried to 10^{−6})" : ""
 print "**The rear fold.** Table 3's capsule (Skalak, A/B = 0.28, steady): largest curvature of the meridian, at the rim of the rear, against the", \
   sprintf("bending stiffness, and the nodes that give it to 1 %%. The curvature grows like δ^%.2f from δ = 1e-3 to %.0e,", p, softest), \
   sprintf("from %.1f to %.1f; the nodes like δ^%.2f, up to %.0f. Triangles: the softest membrane that a branch on a mesh reaches.", \

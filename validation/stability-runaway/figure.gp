@@ -9,7 +9,7 @@ predicted = field("fit.csv", "predicted_factor")
 fold = field("fit.csv", "fold")
 fold_stretch = field("fit.csv", "fold_stretch")
 pore(row, column) = system(sprintf("awk -F, 'NR == %d {print $%d}' %s/pore.csv", row + 1, column, directory))
-distance_label = "distance from the fold, {/:Italic ε} - {/:Italic ε}_c"
+distance_label = "distance from the fold, {/:Italic ε} − {/:Italic ε}_c"
 
 exponent_to_3 = field("fit.csv", "exponent_to_3")
 eval figure("stability-runaway", 12, 9)
@@ -19,7 +19,7 @@ set xlabel distance_label; set ylabel time_label
 set key bottom left
 plot marches using ($1 > 0 ? $1 : NaN):"end" with points linetype 1 pointsize 1.2 title "until unbounded (stretch 4)", \
   marches using ($1 > 0 ? $1 : NaN):"time" with points linetype 2 title "to a stretch of 3", \
-  [3e-5:4e-3] factor / sqrt(x) + offset with lines linetype 1 title sprintf("%.2f (ε - ε_c)^{-1/2} - %.0f", factor, -offset), \
+  [3e-5:4e-3] factor / sqrt(x) + offset with lines linetype 1 title sprintf("%.2f (ε − ε_c)^{−1/2} − %.0f", factor, -offset), \
   predicted / sqrt(x) with lines linetype 3 title "2π / slowest rate at the same distance below"
 print "**Slow passage at a fold.** Time that a neo-Hookean sphere (R_eq = 0.7, δ = 0.01) takes in an endless tube from rest until the program", \
   sprintf("calls it unbounded, just above its fold (ε = %.6f, stretch %.2f). Without its constant part, spent before and after the", fold, fold_stretch), \

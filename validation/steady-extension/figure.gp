@@ -18,7 +18,7 @@ number_label = "Ca = {/:Italic μea/G}"
 
 eval figure("extension", 14, 10)
 set xrange [0:2]; set yrange [0:1]
-set xlabel number_label; set ylabel "{/:Italic D} = ({/:Italic L} - {/:Italic B}) / ({/:Italic L} + {/:Italic B})"
+set xlabel number_label; set ylabel "{/:Italic D} = ({/:Italic L} − {/:Italic B}) / ({/:Italic L} + {/:Italic B})"
 set key bottom right
 plot for [i = 1:4] branches using (stable(sphere[i], "capillary_number")):"deformation" with lines linetype i title label[i], \
   branches using (unstable(sphere[1], "capillary_number")):"deformation" with lines linetype 5 title "neo-Hookean, unstable", \
