@@ -168,6 +168,22 @@ std::string printable(std::string_view text) {
   return shown;
 }
 
+std::string with_minus_signs(std::string_view text) {
+  constexpr std::string_view plus_or_minus = "±", minus = "−";
+  std::string signed_text;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view before = text.substr(0, i);
+    const bool begins =
+        before.empty() || before.ends_with(' ') || before.ends_with('(') || before.ends_with(plus_or_minus);
+    const bool is_number = i + 1 < text.size() && text[i + 1] >= '0' && text[i + 1] <= '9';
+    if (text[i] == '-' && begins && is_number)
+      signed_text += minus;
+    else
+      signed_text += text[i];
+  }
+  return signed_text;
+}
+
 std::string with_line_feeds(const std::string &text) {
   std::string lines;
   for (std::size_t i = 0; i < text.size(); ++i)

@@ -50,6 +50,9 @@ bool is_printable(char32_t c);
 // With "\u001b" for a character that is not printable.
 std::string printable(std::string_view text);
 
+// With the sign of a negative number as people write it, "−0.5": at the beginning or behind a blank, a parenthesis or ±.
+std::string with_minus_signs(std::string_view text);
+
 // Each line ends with a line feed: not with both characters, as on Windows, nor with a carriage return, as in old files.
 std::string with_line_feeds(const std::string &text);
 

@@ -172,15 +172,6 @@ TypedUnit own_unit(const Case &physics, const Dimension &of) {
   return {unit_text(of), 1};
 }
 
-std::string flow_rate_text(const Case &physics) {
-  const TypedUnit unit = own_unit(physics, dimension::flow_rate);
-  const Quantity &pressure = physics.physical.pressure;
-  return fmt::format("Q = {:.6g} {}{}", flow_rate(physics) / unit.si, unit.name,
-                     pressure.si > 0 ? " without a capsule, which " +
-                                           quantity_text(pressure, dimension::pressure) + " drives"
-                                     : "");
-}
-
 std::string flow_rate_text(const Case &physics, double capillary_number) {
   const auto &p = physics.physical;
   const double shear = shear_modulus(physics);
@@ -201,9 +192,13 @@ bool is_inertia_small(const Case &physics) {
   return reynolds_number(physics) <= small;
 }
 
+std::string density_text(const Case &physics) {
+  return quantity_text(density(physics), dimension::density);
+}
+
 std::string reynolds_text(const Case &physics) {
   return fmt::format("the Reynolds number is {:.2g} (of a liquid of {}){}", reynolds_number(physics),
-                     quantity_text(density(physics), dimension::density),
+                     density_text(physics),
                      is_inertia_small(physics) ? "" : ": not small, but the model has no inertia");
 }
 

@@ -37,8 +37,6 @@ double driven_tube_length(const Case &physics);
 // The unit in which a case is told of results: that in which it gives its own flow rate, pressure and modulus, and the
 // length and velocity that go with its tube's radius; of everything else the SI unit.
 TypedUnit own_unit(const Case &physics, const Dimension &of);
-// "Q = 0.1 nl/s", or "Q = 1.3e-12 m3/s without a capsule, which 500 Pa drives".
-std::string flow_rate_text(const Case &physics);
 // The flow rate at any capillary number, in the unit in which the case gives its own: "0.253 nl/s". Empty where the modulus
 // is unknown: without physical units, and in a fit.
 std::string flow_rate_text(const Case &physics, double capillary_number);
@@ -46,6 +44,8 @@ std::string flow_rate_text(const Case &physics, double capillary_number);
 // rho Q/(pi R_t mu) of the external liquid, of a case in physical units. The model has no inertia, which holds where this is
 // small.
 double reynolds_number(const Case &physics);
+// The density of that liquid: "1000 kg/m3".
+std::string density_text(const Case &physics);
 // With its density, and with a warning where it is above 0.1: "the Reynolds number is 0.0064 (of a liquid of 1000 kg/m3)".
 std::string reynolds_text(const Case &physics);
 bool is_inertia_small(const Case &physics);

@@ -147,7 +147,7 @@ bool failure_is_expected(const std::vector<Comparison> &comparisons, const RunRe
 
 std::vector<TextRow> comparison_rows(const std::vector<Comparison> &comparisons) {
   std::vector<TextRow> rows{{"id", "where", "run", "quantity", "computed", "converged", "own error",
-                             "published", "distance", "allowed", "verdict"}};
+                             "expected", "distance", "allowed", "verdict"}};
   for (const Comparison &c : comparisons)
     rows.push_back({c.expected.id, c.expected.where, c.run, c.expected.quantity, c.computed, c.converged,
                     c.estimate, c.expected.published, c.distance, c.expected.allowed,

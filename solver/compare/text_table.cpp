@@ -2,9 +2,11 @@
 #include "base/atomic_file.hpp"
 #include "base/csv.hpp"
 #include "base/failure.hpp"
+#include "base/text.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <utility>
 
 namespace capsule {
 
@@ -36,9 +38,11 @@ std::string markdown_table(const std::vector<TextRow> &rows) {
   for (const TextRow &row : rows) {
     const bool is_header = text.empty();
     TextRow escaped = row;
-    for (std::string &field : escaped)
+    for (std::string &field : escaped) {
+      field = with_minus_signs(field);
       for (std::size_t at = field.find('|'); at != std::string::npos; at = field.find('|', at + 2))
         field.insert(at, 1, '\\');
+    }
     text += fmt::format("| {} |\n", fmt::join(escaped, " | "));
     if (is_header)
       for (std::size_t k = 0; k < row.size(); ++k)
@@ -48,9 +52,14 @@ std::string markdown_table(const std::vector<TextRow> &rows) {
 }
 
 void write_table(const std::filesystem::path &file, const std::string &text) {
-  const auto first_line = [](const std::string &of) { return of.substr(0, of.find('\n')); };
+  // The first column's name, and how many there are: the others' may be those of an earlier version.
+  const auto columns = [](const std::string &of) {
+    const std::string line = of.substr(0, of.find('\n'));
+    const auto is_end = [](char c) { return c == ',' || c == '|'; };
+    return std::pair(line.substr(0, line.find_first_of(",|", 1)), std::ranges::count_if(line, is_end));
+  };
   if (std::error_code ignored;
-      std::filesystem::exists(file, ignored) && first_line(read_file(file)) != first_line(text))
+      std::filesystem::exists(file, ignored) && columns(read_file(file)) != columns(text))
     throw InputError(fmt::format(
         "error: '{}' is no such table; give --table another name, or move the file away\n", file.string()));
   write_atomically(file, text);

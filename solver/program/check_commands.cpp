@@ -54,14 +54,13 @@ void require_other_file(const std::string &table, const fs::path &expectations) 
 
 // Prints the comparisons if there are any, and writes them to files if these have a name.
 void show_comparisons(const std::vector<Comparison> &comparisons, const std::string &files) {
-  std::vector<TextRow> rows = comparison_rows(comparisons);
+  const std::vector<TextRow> rows = comparison_rows(comparisons);
   if (!files.empty()) {
     write_table(files + ".csv", csv_table(rows));
     write_table(files + ".md", markdown_table(rows));
   }
   if (comparisons.empty())
     return;
-  std::ranges::replace(rows.front(), "published", "expected"); // by the paper or by the case itself
   fmt::print("\n{}\n", text_table(rows));
 }
 

@@ -28,6 +28,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -107,8 +108,12 @@ std::vector<std::string> remarks_on(const CaseInput &input) {
     if (!run.physics.followers.empty() && run.physics.flow.drive != DriveBy::pressure)
       accuracy = std::max(accuracy, run.physics.accuracy);
   }
+  if (fastest != nullptr && fastest->physics.physical.pressure.si > 0)
+    remarks.emplace_back("Q is the flow rate without a capsule, as the pressure drives it");
   if (fastest != nullptr)
-    remarks = {flow_rate_text(fastest->physics), reynolds_text(fastest->physics)};
+    remarks.push_back(is_inertia_small(fastest->physics)
+                          ? "Re is the Reynolds number of a liquid of " + density_text(fastest->physics)
+                          : reynolds_text(fastest->physics));
   if (const std::string strong = strong_flow_remark(input); !strong.empty())
     remarks.push_back(strong);
   if (accuracy > 0)
@@ -242,7 +247,15 @@ ExitCode show_case(const Arguments &arguments) {
   const RunOptions options = run_options(arguments, input, task);
   std::size_t finished = 0;
   double seconds_left = 0;
-  std::vector<TextRow> table{{"run", "law", "R_eq", "eps", "lambda", "delta", "Re", "state"}};
+  const bool is_physical =
+      std::ranges::any_of(input.runs, [](const RunInput &run) { return has_physical(run.physics); });
+  const auto row = [&](TextRow groups, const TextRow &physical, const std::string &state) {
+    if (is_physical)
+      std::ranges::copy(physical, std::back_inserter(groups));
+    groups.push_back(state);
+    return groups;
+  };
+  std::vector<TextRow> table{row({"run", "law", "R_eq", "eps", "lambda", "delta"}, {"Q", "Re"}, "state")};
   for (const RunInput &run_input : input.runs) {
     const Case &physics = run_input.physics;
     const RunState state = state_of(run_input, options);
@@ -251,13 +264,14 @@ ExitCode show_case(const Arguments &arguments) {
     const std::string to_go = task.motion ? fmt::format(", about {} to go", duration_text(left)) : "";
     finished += state.finished ? 1 : 0;
     seconds_left += left;
-    table.push_back({name_of(run_input, input), group_text("membrane.law", physics),
-                     group_text("capsule.radius", physics), group_text(flow_key, physics),
-                     group_text("flow.viscosity_ratio", physics),
-                     group_text("membrane.bending_ratio", physics),
-                     has_physical(physics) ? fmt::format("{:.2g}", reynolds_number(physics)) : "",
-                     state.finished ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
-                                    : unfinished_text(state) + to_go});
+    table.push_back(
+        row({name_of(run_input, input), group_text("membrane.law", physics),
+             group_text("capsule.radius", physics), group_text(flow_key, physics),
+             group_text("flow.viscosity_ratio", physics), group_text("membrane.bending_ratio", physics)},
+            {flow_rate_text(physics, physics.flow.capillary_number),
+             has_physical(physics) ? fmt::format("{:.2g}", reynolds_number(physics)) : ""},
+            state.finished ? fmt::format("finished in {}", duration_text(state.cpu_seconds))
+                           : unfinished_text(state) + to_go));
     if (&run_input == &input.runs.front())
       fmt::print("{}\n", resolved_toml(physics));
     else

@@ -35,9 +35,10 @@ ExitCode list_keys(const std::string &word) {
   for (const Key *key : listed)
     width = std::max(width, key->name.size() + 2);
   const std::string below(width, ' ');
-  std::string section;
+  const auto section_of = [](const Key &key) { return key.name.substr(0, key.name.find('.')); };
+  std::string section = section_of(*listed.front());
   for (const Key *key : listed) {
-    const std::string here = key->name.substr(0, key->name.find('.'));
+    const std::string here = section_of(*key);
     fmt::print("{}{:<{}}{}\n{}default: {}; allowed: {}{}\n", here == section ? "" : "\n", key->name, width,
                key->meaning, below, default_text(*key), allowed_text(*key),
                key->of_each_capsule ? "; a list for several capsules" : "");

@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(distances_relative_and_absolute) {
   BOOST_TEST(row.at(0).distance == "-20 %");
   const auto rows = comparison_rows(row);
   BOOST_TEST(csv_table(rows) ==
-             "id,where,run,quantity,computed,converged,own error,published,distance,allowed,verdict\n"
+             "id,where,run,quantity,computed,converged,own error,expected,distance,allowed,verdict\n"
              "a,\"T, U\",viscosity_ratio=1,v_g,2,,3e-05,2.5,-20 %,25 %,agrees\n");
 }
 
