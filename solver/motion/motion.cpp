@@ -4,6 +4,7 @@
 #include "geometry/pore.hpp"
 #include "motion/error_estimate.hpp"
 #include "motion/march.hpp"
+#include "observe/transit.hpp"
 #include "scene/resolution.hpp"
 
 namespace capsule {
@@ -95,6 +96,8 @@ MainMarch main_march(const Case &input, const Checkpoint &from, const Control &c
 Outcome march(const Case &input, const Checkpoint &from, const Control &control) {
   auto [marched, outcome] = main_march(input, from, control);
   const bool bursts = outcome.status == Status::burst;
+  if (outcome.status == Status::reached)
+    outcome.message = remark_on_transit(input, outcome.last.series);
   if ((outcome.status != Status::reached && !bursts) || input.numerics == Numerics::paper)
     return outcome;
   Control quiet;
@@ -120,7 +123,8 @@ Outcome march(const Case &input, const Checkpoint &from, const Control &control)
     if ((bursts && coarse.status == Status::burst) || (!bursts && input.until.last_x_g))
       add_errors_of_the_end(outcome.last, coarse.last, input.time.scheme, outcome.error_estimate);
   } else
-    outcome.message = "no error estimate, because the coarse companion failed: " + coarse.message;
+    outcome.message += (outcome.message.empty() ? "" : "; ") +
+                       ("no error estimate, because the coarse companion failed: " + coarse.message);
   return outcome;
 }
 

@@ -3,6 +3,9 @@
 #include <array>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <string>
 
 namespace capsule {
 namespace {
@@ -20,6 +23,22 @@ constexpr std::array of_transits{
 using Series = std::vector<SeriesRow>;
 
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
+
+// Where the time of a transit begins and ends.
+struct Places {
+  double from, to;
+};
+Places places_of(const Case &physics) {
+  constexpr double outside = 1;
+  return {physics.output.transit_from.value_or(-outside),
+          physics.output.transit_to.value_or(physics.pore.exit_x + outside)};
+}
+
+double largest_resistance(const Series &series) {
+  return largest_on_the_way(series, &SeriesRow::resistance, &SeriesRow::x_g)->value;
+}
+
+constexpr double half = 0.5, low = 0.1, high = 0.9; // of the height
 
 // When the capsule comes to x: the cubic through two rows with the slopes 1/v_g.
 double time_at(const Series &series, double x) {
@@ -79,18 +98,49 @@ std::optional<Transit> transit_of(const Case &physics, const Series &series) {
   Transit transit;
   if (series.size() < fewest_rows)
     return transit;
-  constexpr double outside = 1;
-  transit.time = {time_at(series, physics.output.transit_from.value_or(-outside)),
-                  time_at(series, physics.output.transit_to.value_or(physics.pore.exit_x + outside))};
+  const auto [from, to] = places_of(physics);
+  transit.time = {time_at(series, from), time_at(series, to)};
   if (!physics.output.resistance)
     return transit;
-  const double height = largest_on_the_way(series, &SeriesRow::resistance, &SeriesRow::x_g)->value;
-  constexpr double half = 0.5, low = 0.1, high = 0.9;
+  const double height = largest_resistance(series);
+  // What is still high at an end of the march may be higher beyond it.
+  if (std::max(series.front().resistance, series.back().resistance) >= half * height)
+    return transit;
   transit.pulse_height = height;
   transit.pulse_width = {first_above(series, half * height), last_above(series, half * height)};
   transit.pulse_rise = {first_above(series, low * height), first_above(series, high * height)};
   transit.pulse_fall = {last_above(series, high * height), last_above(series, low * height)};
   return transit;
+}
+
+std::string remark_on_transit(const Case &physics, const Series &series) {
+  const auto transit = transit_of(physics, series);
+  if (!transit || series.empty())
+    return "";
+  const SeriesRow &first = series.front(), &last = series.back();
+  std::vector<std::string> remarks;
+  if (std::isnan(transit->time.length())) {
+    const auto [from, to] = places_of(physics);
+    remarks.push_back(
+        fmt::format("no transit time: the way from x_g = {:.4g} to {:.4g} does not include that "
+                    "from {:.4g} to {:.4g}",
+                    first.x_g, last.x_g, from, to));
+  }
+  std::vector<std::string> unknown;
+  for (const TransitQuantity &quantity : transit_quantities())
+    if (quantity.duration != &Transit::time && std::isnan(quantity.of(*transit)))
+      unknown.emplace_back(quantity.name);
+  if (physics.output.resistance && !unknown.empty()) {
+    const double height = largest_resistance(series);
+    std::vector<std::string> cuts;
+    for (const auto &[row, word] : {std::pair(&first, "begins"), std::pair(&last, "ends")})
+      if (row->resistance >= low * height)
+        cuts.push_back(
+            fmt::format("{} at x_g = {:.4g} with {:.0f} %", word, row->x_g, 100 * row->resistance / height));
+    remarks.push_back(fmt::format("no {}: the march {} of its largest resistance", fmt::join(unknown, ", "),
+                                  fmt::join(cuts, " and ")));
+  }
+  return fmt::format("{}", fmt::join(remarks, "; "));
 }
 
 std::span<const TransitQuantity> transit_quantities() {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace capsule {
@@ -21,8 +22,12 @@ struct Transit {
   double pulse_height = std::numeric_limits<double>::quiet_NaN();
   Duration pulse_width, pulse_rise, pulse_fall;
 };
-// Of a march; empty where the pore has no second mouth.
+// Of a march; empty where the pore has no second mouth. A pulse has a height, and with it a rise and a fall, if the march
+// begins and ends with less than half of its largest resistance: before the capsule has left, the largest may be to come.
 std::optional<Transit> transit_of(const Case &physics, const std::vector<SeriesRow> &series);
+
+// One line about numbers of a transit that its march does not tell, and why; empty if it tells all.
+std::string remark_on_transit(const Case &physics, const std::vector<SeriesRow> &series);
 
 // In summary.json, as entries of `transit`; its errors are "transit_<name>".
 struct TransitQuantity {

@@ -50,14 +50,46 @@ BOOST_AUTO_TEST_CASE(bell_shaped_pulse) {
 
 BOOST_AUTO_TEST_CASE(what_is_not_on_the_way_is_no_number) {
   Case physics = between_mouths();
-  const Transit ends_early = transit_of(physics, bell(-2, 3.3)).value();
-  BOOST_TEST(std::isnan(ends_early.time.length()));
-  BOOST_TEST(std::isnan(ends_early.pulse_fall.length()));
-  BOOST_TEST(!std::isnan(ends_early.pulse_rise.length()));
   physics.output.resistance = false;
   BOOST_TEST(std::isnan(transit_of(physics, bell(-2, 9))->pulse_height));
+  BOOST_TEST(remark_on_transit(physics, bell(-2, 9)) == "");
+  const std::string no_time = remark_on_transit(physics, bell(-2, 6.5));
+  BOOST_TEST(no_time == "no transit time: the way from x_g = -2 to 6.5 does not include that from -1 to 7");
+  BOOST_TEST(std::isnan(transit_of(physics, bell(-0.5, 9))->time.length()));
   physics.pore.shape = PoreShape::hyperbolic;
   BOOST_TEST(!transit_of(physics, bell(-2, 9)).has_value());
+  BOOST_TEST(remark_on_transit(physics, bell(-2, 3)) == "");
+}
+
+// The resistance of the bell is 1.5 at x_g = 3, half of it .67 of time and .72 of length away, a tenth 1.21 and 1.53.
+BOOST_AUTO_TEST_CASE(a_pulse_that_the_march_cuts_is_no_pulse) {
+  Case physics = between_mouths();
+  physics.output.transit_from = 2.9;
+  physics.output.transit_to = 3;
+  const auto numbers = [&](double from, double to) {
+    const Transit transit = transit_of(physics, bell(from, to)).value();
+    std::string known;
+    for (const TransitQuantity &quantity : transit_quantities())
+      known += std::isfinite(quantity.of(transit)) ? '1' : '0';
+    return known;
+  };
+  const auto remark = [&](double from, double to) { return remark_on_transit(physics, bell(from, to)); };
+  // time, height, width, rise, fall
+  BOOST_TEST(numbers(-2, 9) == "11111");
+  BOOST_TEST(remark(-2, 9) == "");
+  for (const double end : {3.0, 3.3, 3.7}) // while it rises, and when the largest was no end of the way
+    BOOST_TEST(numbers(-2, end) == "10000");
+  BOOST_TEST(
+      remark(-2, 3.7).starts_with("no pulse_height, pulse_width, pulse_rise, pulse_fall: the march ends "
+                                  "at x_g = 3.7 with 51 % of its largest resistance"));
+  BOOST_TEST(numbers(-2, 4) == "11110");
+  BOOST_TEST(remark(-2, 4) == "no pulse_fall: the march ends at x_g = 4 with 30 % of its largest resistance");
+  BOOST_TEST(numbers(2.5, 9) == "10000");
+  BOOST_TEST(numbers(2, 9) == "11101");
+  BOOST_TEST(remark(2, 9) ==
+             "no pulse_rise: the march begins at x_g = 2 with 30 % of its largest resistance");
+  BOOST_TEST(remark(2.5, 3.7).find("begins at x_g = 2.5 with 70 % and ends at x_g = 3.7 with 5") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
