@@ -20,7 +20,7 @@ double error_of(const std::string &quantity, const Case &physics, const StudyRun
     return largest(plain, first_x_g, last_x_g);
   const double of_the_value =
       std::abs(run.summary.quantities.at(quantity) - exact.summary.quantities.at(quantity));
-  if (quantity == "x_g_at_peak" || quantity.starts_with("transit_"))
+  if (quantity.starts_with("x_g_at_") || quantity.starts_with("largest_") || quantity.starts_with("transit_"))
     return of_the_value;
   if (quantity == "peak_pressure_drop") {
     const double peak = exact.summary.quantities.at("x_g_at_peak");

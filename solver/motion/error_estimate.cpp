@@ -62,18 +62,18 @@ double deformation_difference(const SeriesRow &row, const SeriesRow &other) {
          (sum * sum);
 }
 
-// The peak is where the slope vanishes: it moves by the slope's difference over the curvature.
-double shift_of_peak(const std::vector<RowPair> &pairs, const Peak &peak) {
+// A peak is where the slope vanishes: it moves by the slope's difference over the curvature.
+double shift_of_peak(const std::vector<RowPair> &pairs, double SeriesRow::*value, double x_g) {
   double shift = 0;
   for (std::size_t k = 2; k < pairs.size(); ++k) {
     const double before = pairs[k - 1].fine->x_g - pairs[k - 2].fine->x_g;
     const double after = pairs[k].fine->x_g - pairs[k - 1].fine->x_g;
     const auto rise = [&](std::size_t i, const SeriesRow *RowPair::*march) {
-      return (pairs[i].*march)->pressure_drop - (pairs[i - 1].*march)->pressure_drop;
+      return (*(pairs[i].*march)).*value - (*(pairs[i - 1].*march)).*value;
     };
     const double curvature =
         2 * (rise(k, &RowPair::fine) / after - rise(k - 1, &RowPair::fine) / before) / (before + after);
-    if (std::abs(pairs[k - 1].fine->x_g - peak.x_g) <= row_spacing && curvature < 0)
+    if (std::abs(pairs[k - 1].fine->x_g - x_g) <= row_spacing && curvature < 0)
       shift = std::max(shift,
                        std::abs((rise(k, &RowPair::fine) - rise(k, &RowPair::coarse)) / (after * curvature)));
   }
@@ -140,7 +140,19 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
       add("peak_pressure_drop", row->pressure_drop - other->pressure_drop);
   }
   if (peak && coarse_peak)
-    add("x_g_at_peak", std::max(std::abs(peak->x_g - coarse_peak->x_g), shift_of_peak(pairs, *peak)));
+    add("x_g_at_peak", std::max(std::abs(peak->x_g - coarse_peak->x_g),
+                                shift_of_peak(pairs, &SeriesRow::pressure_drop, peak->x_g)));
+  for (const LargestQuantity &quantity : largest_quantities()) {
+    const std::string name = std::string("largest_") + quantity.name;
+    const auto largest = largest_on_the_way(fine, quantity.value, quantity.S),
+               other = largest_on_the_way(coarse, quantity.value, quantity.S);
+    add(name,
+        std::max(std::abs(largest->value - other->value), difference_around_largest(pairs, quantity.value)));
+    const bool has_turned =
+        largest->x_g < fine.back().x_g; // not at the end, where a limit or the way ends it
+    add("x_g_at_" + name, std::max(std::abs(largest->x_g - other->x_g),
+                                   has_turned ? shift_of_peak(pairs, quantity.value, largest->x_g) : 0));
+  }
   for (auto &[quantity, difference] : error)
     difference *= safety_of(quantity, scheme);
   for (const ReportedQuantity &quantity : reported_quantities())

@@ -12,8 +12,8 @@ namespace capsule {
 struct Case;
 
 // Of what summary.json reports, by name: the largest difference times a margin over all rows at the same x_g, "v_g@x_g",
-// or at the same time, "v_g@time", and over the last part of the way, "v_g"; a single row may agree by accident. Neither
-// series may be empty.
+// or at the same time, "v_g@time", and over the last part of the way, "v_g"; a single row may agree by accident. Of the
+// largest values over the way, "largest_tension", the difference half a radius around. Neither series may be empty.
 std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine,
                                               const std::vector<SeriesRow> &coarse, bool by_x_g,
                                               Scheme scheme);

@@ -70,7 +70,9 @@ public:
       outcome.status = failure.kind == failure_kind::unbounded ? Status::unbounded
                        : failure.kind == failure_kind::burst   ? Status::burst
                                                                : Status::failed;
-      const SeriesRow last = record_.series.empty() ? SeriesRow{} : record_.series.back();
+      const std::vector<SeriesRow> &series =
+          judged_ == 0 ? record_.series : record_.followers[judged_ - 1].series;
+      const SeriesRow last = series.empty() ? SeriesRow{} : series.back();
       outcome.failure = failure.kind;
       outcome.message = fmt::format("{} (after t = {:.6g}, x_g = {:.6g}); {}", failure.what(), last.time,
                                     last.x_g, failure.advice);
@@ -360,6 +362,7 @@ private:
       control_.progress(rows[0], steps_);
     for_each_capsule(*dynamics_.scene, [&](std::size_t k) {
       const Vector here = part(position, k);
+      judged_ = k;
       throw_if_stopped({.row = rows[k],
                         .crosses_itself = gauges_[k].crosses_itself(here),
                         .roughness_limit = roughness_limit_,
@@ -367,6 +370,7 @@ private:
                         .softest = softest_if_elastic(capsules_of(input_)[k]->membrane,
                                                       dynamics_.scene->membrane_of(k), here)});
     });
+    judged_ = 0;
     last_accepted_ = position;
   }
 
@@ -399,8 +403,9 @@ private:
   std::vector<std::vector<Eigen::Index>> rows_; // of each capsule in a position
   std::vector<Gauge> gauges_;
   Checkpoint record_;
-  long steps_;           // with those since the last checkpoint
-  Vector last_accepted_; // position of the last row at which nothing stopped the march
+  long steps_;             // with those since the last checkpoint
+  std::size_t judged_ = 0; // the capsule whose row may stop the march; the leading one otherwise
+  Vector last_accepted_;   // position of the last row at which nothing stopped the march
   std::vector<Station> x_g_stations_, time_stations_;
 };
 

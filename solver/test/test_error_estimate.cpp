@@ -97,6 +97,27 @@ BOOST_AUTO_TEST_CASE(peaks_that_agree_by_accident_may_be_shifted) {
   BOOST_TEST(shift(25) == 0);                              // too far away to say something about the peak
 }
 
+// As the peak's; a value that is still growing has its largest at the end of both marches.
+BOOST_AUTO_TEST_CASE(largest_values_err_as_their_rows_do) {
+  Series fine = pulse();
+  for (SeriesRow &row : fine) {
+    row.max_tension = row.pressure_drop;
+    row.max_area_stretch = 1 + row.x_g;
+  }
+  const double tilt = 1e-3;
+  Series coarse = fine;
+  for (SeriesRow &row : coarse) {
+    row.max_tension += tilt * (row.x_g - top);
+    row.max_area_stretch += tilt * row.x_g;
+  }
+  const auto error = estimate_errors(fine, coarse, true, Scheme::bdf);
+  BOOST_TEST(error.at("x_g_at_largest_tension") == 6 * tilt / 4, tolerance(1e-9));
+  BOOST_TEST(error.at("largest_tension") > 6 * tilt * 0.4);
+  BOOST_TEST(error.at("largest_tension") < 6 * tilt * 0.5);
+  BOOST_TEST(error.at("largest_area_stretch") == 6 * tilt * 2, tolerance(1e-9));
+  BOOST_TEST(error.at("x_g_at_largest_area_stretch") == 0);
+}
+
 // The tops of both pulses agree, rows beside them do not.
 BOOST_AUTO_TEST_CASE(pulses_whose_tops_agree_by_accident) {
   Case physics;

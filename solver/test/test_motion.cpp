@@ -452,6 +452,8 @@ BOOST_AUTO_TEST_CASE(a_membrane_bursts_where_it_comes_to_what_it_bears) {
     BOOST_TEST(std::abs(series.back().x_g - x_g) < 1e-4);
     BOOST_TEST(outcome.error_estimate.at("x_g") > 0);
     BOOST_TEST(outcome.error_estimate.at("x_g") < 1e-2);
+    BOOST_TEST(outcome.error_estimate.at("largest_tension") > 0);
+    BOOST_TEST(outcome.error_estimate.at("largest_tension") < 1e-2);
   }
 }
 

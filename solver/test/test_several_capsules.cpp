@@ -169,6 +169,24 @@ BOOST_AUTO_TEST_CASE(touching) {
   }
 }
 
+// The softer one behind bursts, and the message says where it is.
+BOOST_AUTO_TEST_CASE(the_capsule_that_bursts_tells_its_place) {
+  Case physics = with(in_a_tube(neo_hookean, 0.6, {1, -1}), [](Case &c) {
+    c.accuracy = 1e-2;
+    c.mesh.membrane = 16;
+    c.until.time = 1;
+    c.until.tension = 0.02;
+  });
+  physics.followers[0].flow.capillary_number = 0.2;
+  const Outcome outcome = march(physics, {}, {});
+  BOOST_REQUIRE_MESSAGE((outcome.status == Status::burst), outcome.message);
+  const SeriesRow &row = outcome.last.followers.at(0).series.back();
+  BOOST_TEST(row.max_tension == 0.02, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(outcome.message.starts_with("capsule 2: the membrane bursts"), outcome.message);
+  BOOST_TEST(outcome.message.find(fmt::format("x_g = {:.6g})", row.x_g)) != std::string::npos,
+             outcome.message);
+}
+
 // Interrupted after every few steps, and in the companion, a march of two ends with the same bits.
 BOOST_AUTO_TEST_CASE(an_interrupted_march_is_the_same) {
   Case physics = with(in_a_tube(neo_hookean, 0.6, {1, -1}), [](Case &c) {
