@@ -47,8 +47,8 @@ using Field = std::variant<Member<bool>, Member<std::string>, Member<double>, Me
 
 // What a key is to a steady state.
 enum class SteadyRole {
-  none,     // of the motion alone: its start, its end, its steps
-  pore,     // the empty pore's length and mouths: results under constant pressure depend on it
+  none, // of the motion alone: its start, its end, its steps
+  pore, // the empty pore's length and mouths: results under constant pressure, and its resistance, depend on it
   result,   // results depend on it
   parameter // a number in its equations: branches go along it
 };

@@ -40,7 +40,7 @@ Key of_motion(Key key) {
   return key;
 }
 
-// Of the empty pore, which has a part in steady states under constant pressure only.
+// Of the empty pore, which has a part in steady states under constant pressure, and a resistance.
 Key of_the_pore(Key key) {
   key.steady = SteadyRole::pore;
   return key;
@@ -371,7 +371,7 @@ std::string_view short_name(const Key &key) {
 }
 
 bool steady_states_depend_on(const Key &key, const Case &physics) {
-  return key.steady == SteadyRole::pore ? physics.flow.drive == DriveBy::pressure
+  return key.steady == SteadyRole::pore ? physics.flow.drive == DriveBy::pressure || physics.output.resistance
                                         : key.steady != SteadyRole::none;
 }
 

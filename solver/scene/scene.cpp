@@ -1,4 +1,5 @@
 #include "scene/scene.hpp"
+#include "electric/conductor.hpp"
 #include "flow/membrane_mesh.hpp"
 #include "geometry/gap.hpp"
 #include "geometry/quadrature.hpp"
@@ -59,6 +60,14 @@ Scene make_scene(const Case &physics) {
     scene.start(rows[k]) = start;
   }
   return scene;
+}
+
+std::optional<double> empty_resistance(const Case &physics) {
+  const auto pore = physics.output.resistance ? make_pore(physics.pore) : std::nullopt;
+  return pore
+             ? std::optional(
+                   Conductor(*pore, conductor_resolution(choose_resolution(physics).flow)).empty_resistance())
+             : std::nullopt;
 }
 
 std::vector<std::vector<Eigen::Index>> rows_of_capsules(const Scene &scene) {

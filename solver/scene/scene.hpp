@@ -28,6 +28,8 @@ struct Scene {
 
 // With the membranes' meshes of either preset.
 Scene make_scene(const Case &physics);
+// The electric resistance of the empty pore, where the case asks for resistances.
+std::optional<double> empty_resistance(const Case &physics);
 // Where the components of each membrane stand in a position of all.
 std::vector<std::vector<Eigen::Index>> rows_of_capsules(const Scene &scene);
 

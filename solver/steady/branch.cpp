@@ -6,6 +6,7 @@
 #include "case/physical.hpp"
 #include "case/units.hpp"
 #include "observe/gauge.hpp"
+#include "scene/scene.hpp"
 #include "steady/continuation.hpp"
 #include "steady/fold_curve.hpp"
 #include "steady/homotopy.hpp"
@@ -276,6 +277,8 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
   BranchFollower follower(input, KeyPath(key, input, to), control);
   Outcome &outcome = follower.outcome();
   outcome.along = key;
+  if (const auto empty = empty_resistance(input))
+    outcome.further["empty_resistance"] = *empty;
   try {
     follower.begin(refine(input, find_steady(input, {}, control, march), control));
     while (!follower.advance()) {

@@ -1,5 +1,6 @@
 #include "steady/steady_state.hpp"
 #include "base/failure.hpp"
+#include "scene/scene.hpp"
 #include "steady/from_profile.hpp"
 #include "steady/refinement.hpp"
 #include <fmt/format.h>
@@ -26,6 +27,8 @@ Outcome steady(const Case &input, const std::optional<Profile> &from, const Cont
     outcome.error_estimate = refined.error_estimate;
     outcome.error_estimate.merge(errors_of_further(refined, record, input.flow.viscosity_ratio));
     outcome.further = record.further;
+    if (const auto empty = empty_resistance(input))
+      outcome.further["empty_resistance"] = *empty;
     outcome.membrane_nodes = static_cast<int>(refined.state.system->nodes());
     outcome.last.series = {record.row};
     outcome.last.profiles = {record.profile};

@@ -136,13 +136,20 @@ BOOST_AUTO_TEST_CASE(fold_under_constant_pressure) {
 // Where a branch ends, nothing tells from which side it came.
 BOOST_AUTO_TEST_CASE(the_end_of_a_branch_is_a_steady_state) {
   Case physics = neo_hookean_case(44);
+  physics.output.resistance = true;
   const Outcome outcome = follow_branch(physics, "capsule.radius", 0.7, {});
   BOOST_TEST((outcome.status == Status::reached));
   BOOST_TEST(outcome.folds.empty());
   BOOST_TEST(outcome.branch.back().parameter == 0.7);
   physics.capsule.radius = 0.7;
-  const SeriesRow direct = steady(physics, {}, {}).last.series.at(0);
-  BOOST_TEST(std::abs(outcome.branch.back().row.pressure_drop - direct.pressure_drop) < 1e-6);
+  const Outcome alone = steady(physics, {}, {});
+  const SeriesRow direct = alone.last.series.at(0), end = outcome.branch.back().row;
+  BOOST_TEST(std::abs(end.pressure_drop - direct.pressure_drop) < 1e-6);
+  BOOST_TEST(std::abs(end.resistance - direct.resistance) < 1e-6);
+  BOOST_TEST(end.resistance > 1);
+  // Of the tube of 15 radii and its mouth (scenes.md, another program).
+  BOOST_TEST(std::abs(outcome.further.at("empty_resistance") - 15.9773755) < 1e-6);
+  BOOST_TEST(std::abs(alone.further.at("empty_resistance") - 15.9773755) < 1e-6);
 }
 
 // What was found is kept, the last point with its profile.

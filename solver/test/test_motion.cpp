@@ -384,7 +384,8 @@ BOOST_AUTO_TEST_CASE(stiff_capsule_under_constant_pressure) {
   BOOST_TEST(std::abs(2 * fine - coarse - 0.88206) < 1e-5);
 }
 
-// The steady state at constant pressure is that of the flow rate that it comes to.
+// The steady state at constant pressure is that of the flow rate that it comes to, with the resistance that the march ends
+// with, in the same pore.
 BOOST_AUTO_TEST_CASE(steady_state_under_constant_pressure) {
   Case physics;
   physics.pore.shape = PoreShape::tube;
@@ -396,11 +397,17 @@ BOOST_AUTO_TEST_CASE(steady_state_under_constant_pressure) {
   physics.membrane.law = neo_hookean;
   physics.membrane.bending_ratio = 1e-3;
   physics.until.time = 2;
+  physics.output.resistance = true;
   const Outcome outcome = march(physics, {}, {});
   BOOST_REQUIRE(outcome.status == Status::reached);
   const SeriesRow end = outcome.last.series.back();
   BOOST_TEST(end.max_radial_velocity < 1e-5);
-  const SeriesRow steady_end = steady(physics, {}, {}).last.series.back();
+  const Outcome at_rest = steady(physics, {}, {});
+  const SeriesRow steady_end = at_rest.last.series.back();
+  BOOST_TEST(steady_end.resistance == end.resistance, boost::test_tools::tolerance(1e-5));
+  BOOST_TEST(steady_end.resistance_long_conductor == end.resistance_long_conductor,
+             boost::test_tools::tolerance(1e-5));
+  BOOST_TEST(at_rest.further.at("empty_resistance") == outcome.further.at("empty_resistance"));
   BOOST_TEST(steady_end.flow_rate == end.flow_rate, boost::test_tools::tolerance(1e-6));
   BOOST_TEST(steady_end.v_g == end.v_g, boost::test_tools::tolerance(1e-5));
   BOOST_TEST(steady_end.length == end.length, boost::test_tools::tolerance(1e-5));
