@@ -1,6 +1,5 @@
 #include "program/commands.hpp"
 #include "base/atomic_file.hpp"
-#include "base/csv.hpp"
 #include "base/digest.hpp"
 #include "base/failure.hpp"
 #include "base/text.hpp"
@@ -12,11 +11,11 @@
 #include "case/symbols.hpp"
 #include "case/value_lists.hpp"
 #include "compare/text_table.hpp"
-#include "motion/stops.hpp"
 #include "motion/to_rest.hpp"
 #include "output/tables.hpp"
 #include "program/fit_profiles.hpp"
 #include "program/progress.hpp"
+#include "program/remarks.hpp"
 #include "program/run_list.hpp"
 #include "scene/cost.hpp"
 #include "scene/scene.hpp"
@@ -29,7 +28,6 @@
 #include <fmt/ranges.h>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -71,11 +69,12 @@ ExitCode compute_runs(const CaseInput &whole, const Arguments &arguments, const 
   const CaseInput input = arguments.only > 0 ? one_run_of(whole, arguments.only) : whole;
   write_run_list(whole, options.directory);
   const std::vector<RunResult> results = compute_case(input, arguments, computation);
-  if (computation.task.motion)
-    for (const std::string &remark :
-         {wrinkle_remark(results), outlet_remark(results), unsteady_remark(results)})
-      if (!remark.empty())
-        fmt::print(stderr, "{}: {}\n", whole.name, remark);
+  for (const std::string &remark :
+       computation.task.motion
+           ? std::vector{wrinkle_remark(results), outlet_remark(results), unsteady_remark(results)}
+           : std::vector{bearing_remark(results)})
+    if (!remark.empty())
+      fmt::print(stderr, "{}: {}\n", whole.name, remark);
   if (std::ranges::any_of(results, is_interrupted))
     return ExitCode::interrupted;
   return std::ranges::any_of(results, has_failed) ? ExitCode::numerics_failed : ExitCode::done;
@@ -172,19 +171,6 @@ CaseInput different_branches(CaseInput input, const Task &task,
                input.runs.size() - kept.size(), input.runs.size());
   input.runs = kept;
   return input;
-}
-
-// The key that ended a march.
-std::string what_ended(const UntilSpec &until, const std::map<std::string, double> &quantities) {
-  const auto came_to = [&](const char *name, const std::optional<double> &end) {
-    constexpr double rounding = 1e-9;
-    const auto found = quantities.find(name);
-    return end && found != quantities.end() && found->second >= *end - rounding;
-  };
-  if (!until.by_place() || came_to("time", until.time))
-    return "until.time";
-  const bool by_last = until.last_x_g && !came_to("x_g", until.x_g);
-  return fmt::format("{} (with pore.exit_x)", by_last ? "until.last_x_g" : "until.x_g");
 }
 
 } // namespace
@@ -295,101 +281,6 @@ ExitCode create_case(const std::string &id, const std::string &like) {
     files.insert(file.filename());
   fmt::print("{}: {}\n", directory.string(), fmt::join(files, " "));
   return ExitCode::done;
-}
-
-std::string unsteady_remark(const std::vector<RunResult> &results) {
-  std::size_t unsteady = 0;
-  double fastest = 0;
-  std::string later;     // of the first one
-  bool is_of_one = true; // `capsule steady` has one capsule
-  for (const auto &[input, directory, summary] : results) {
-    if (!summary || summary->status != word_of(Status::reached))
-      continue;
-    const PoreShape shape = input.physics.pore.shape;
-    double moving = 0;
-    for (std::size_t k = 0; k <= input.physics.followers.size(); ++k) {
-      const auto at_the_end = [&, &quantities = summary->quantities](const char *name) {
-        const auto found = quantities.find(name + capsule_mark(k));
-        return found == quantities.end() ? 0 : found->second;
-      };
-      const bool in_the_mouth =
-          shape == PoreShape::hyperbolic && at_the_end("x_g") < at_the_end("length") / 2;
-      if (!in_the_mouth)
-        moving = std::max({moving, at_the_end("max_axial_residual"), at_the_end("max_radial_velocity")});
-    }
-    if (moving <= input.physics.accuracy || shape == PoreShape::two_mouths)
-      continue;
-    ++unsteady;
-    fastest = std::max(fastest, moving);
-    if (later.empty())
-      later = what_ended(input.physics.until, summary->quantities);
-    is_of_one = is_of_one && input.physics.followers.empty();
-  }
-  if (unsteady == 0)
-    return "";
-  return fmt::format(
-      "not steady yet{}: the membrane still moves with {}{:.2g} relative to its centre; a larger {} leads "
-      "nearer{}",
-      results.size() == 1 ? "" : fmt::format(", {} of {}", unsteady, counted(results.size(), "run")),
-      unsteady == 1 ? "" : "up to ", fastest, later,
-      is_of_one ? ", `capsule steady` tells whether there is a steady state" : "");
-}
-
-std::string outlet_remark(const std::vector<RunResult> &results) {
-  constexpr double too_much = 1e-2;
-  std::size_t runs = 0;
-  double largest = 0;
-  for (const RunResult &result : results) {
-    if (!result.summary || result.summary->status != word_of(Status::reached))
-      continue;
-    const auto &quantities = result.summary->quantities;
-    const auto one = quantities.find("pressure_drop"), other = quantities.find("pressure_drop_reciprocal");
-    if (one == quantities.end() || other == quantities.end())
-      continue;
-    const double difference = std::abs(one->second - other->second) / std::max(1.0, std::abs(other->second));
-    if (difference > too_much)
-      ++runs;
-    largest = std::max(largest, difference);
-  }
-  if (runs == 0)
-    return "";
-  return fmt::format(
-      "the two routes to the pressure drop differ by {:.0f} %{}, of which the estimate says nothing: the "
-      "end of the pore may be too near; a larger pore.exit_x moves it away",
-      100 * largest,
-      results.size() == 1 ? "" : fmt::format(" or less in {} of {}", runs, counted(results.size(), "run")));
-}
-
-std::string wrinkle_remark(const std::vector<RunResult> &results) {
-  std::size_t runs = 0;
-  double most = 0, from = std::numeric_limits<double>::infinity(), to = -from;
-  bool estimated = false;
-  for (const RunResult &result : results) {
-    if (!result.summary || !fs::exists(result.directory / "series.csv"))
-      continue;
-    Columns series = read_columns(result.directory / "series.csv");
-    const std::vector<double> &dents = series["dents"], &x_g = series["x_g"];
-    bool has_wrinkled = false;
-    for (std::size_t row = 0; row < std::min(dents.size(), x_g.size()); ++row)
-      if (dents[row] >= dents_of_wrinkles) {
-        has_wrinkled = true;
-        most = std::max(most, dents[row]);
-        from = std::min(from, x_g[row]);
-        to = std::max(to, x_g[row]);
-      }
-    runs += has_wrinkled ? 1 : 0;
-    estimated |= has_wrinkled && !result.summary->error_estimate.empty();
-  }
-  if (runs == 0)
-    return "";
-  return fmt::format(
-      "the membrane wrinkled{}: up to {:.0f} dents {}; a larger {} smooths it{}",
-      results.size() == 1 ? "" : fmt::format(" in {} of {}", runs, counted(results.size(), "run")), most,
-      from < to ? fmt::format("between x_g = {:.4g} and {:.4g}", from, to)
-                : fmt::format("at x_g = {:.4g}", from),
-      bending_key,
-      estimated ? "; small disturbances decide when it wrinkles, and errors there may exceed their estimates"
-                : "");
 }
 
 } // namespace capsule
