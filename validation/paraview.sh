@@ -22,6 +22,11 @@ TOML
   cat run.log
   exit 1
 }
+"$capsule" run case.toml --out between --set until.x_g=-2.3 --set 'output.profiles_at_x_g=[]' \
+  --set pore.shape=two-mouths --set pore.exit_x=6 > run.log 2>&1 || {
+  cat run.log
+  exit 1
+}
 $python - << 'PYTHON'
 import math
 import xml.etree.ElementTree
@@ -47,4 +52,22 @@ for file in files:
     left, right = surface.GetBounds()[:2]
     assert -3.3 < left < right < -0.5, (left, right)
     print(f"{file}: {surface.GetNumberOfPoints()} points, volume {volume:.4f} of {sphere:.4f}")
+
+# The wall of eq. 1, up to ten radii outside of its mouths; the end of a tube behind which the flow goes on is no mouth.
+slope = math.tan(math.radians(78.5))
+for directory, end in ("out", 15), ("between", 6):
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(directory + "/wall.vtp")
+    reader.Update()
+    surface = reader.GetOutput()
+    left, right = surface.GetBounds()[:2]
+    last = end - left if directory == "between" else end
+    assert abs(right - last) < 0.01 and left < -1.8, (directory, left, right)
+    points = [surface.GetPoint(i) for i in range(surface.GetNumberOfPoints())]
+    for x, y, z in points:
+        outside = max(-x, x - end, 0)
+        assert abs(math.hypot(y, z) - math.hypot(1, slope * outside)) < 1e-4, (directory, x, y, z)
+    inside = [x for x, y, z in points if 0 <= x <= end]
+    assert min(inside) < 0.3 and max(inside) > end - 0.3, (directory, min(inside), max(inside))
+    print(f"{directory}/wall.vtp: from x = {left:.2f} to {right:.2f}")
 PYTHON

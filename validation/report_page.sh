@@ -82,6 +82,11 @@ ALL-dV,Section 4.2,viscosity_ratio=3,volume_change,1e-9,,,<0.001,-0.001,,agrees
 END
 echo '# What is not computed?' > validation/uncomputed/README.md
 "$report" page.html cases/small cases/two validation/uncomputed
+mkdir -p cases/passes
+sed '/^profiles_at/d; /sweep/,$d' cases/small/case.toml > cases/passes/case.toml
+printf 'profiles_every = 0.1\n[pore]\nshape = "two-mouths"\nexit_x = 2\n' >> cases/passes/case.toml
+"$capsule" run cases/passes > /dev/null 2>&1
+"$report" passes.html cases/passes
 grep -q 'What is not computed? <code>cmake --build build --target study-uncomputed</code>' page.html || fail "a missing study is not named"
 grep -q '<figcaption><strong>Figure 5a.</strong> Profiles at x<sub>g</sub> = 2: they differ by 1·10<sup>−5</sup> in max_stretch, like N<sup>−1.05</sup> and 10<sup>4</sup>[.]' page.html ||
   fail "the caption's symbols"
@@ -273,5 +278,15 @@ call POST "$at/actions" "$(jq -n --argjson y "$(script 'Math.round(document.getE
     {type: "pointerMove", x: 180, y: $y}, {type: "pointerDown", button: 0},
     {type: "pointerMove", duration: 300, x: 180, y: ($y - 250)}, {type: "pointerUp", button: 0}]}]}')" > /dev/null
 expect "a finger on the curve scrolls the page" true "$(script "scrollY > $before + 100")"
+
+call POST "$at/goog/cdp/execute" '{"cmd": "Emulation.clearDeviceMetricsOverride", "params": {}}' > /dev/null
+call POST "$at/url" "{\"url\": \"file://$place/passes.html\"}" > /dev/null
+expect "a second mouth is known" 2 "$(script 'JSON.parse(document.getElementById("player-data").textContent).runs[0].second_mouth')"
+expect "the solid ends behind it" "true false" "$(script "(() => {
+  const pore = document.getElementById('pore'), scale = pore.height / 4.4, x_g = Number('$(readout x_g)');
+  const row = pore.getContext('2d').getImageData(0, 3, pore.width, 1).data;
+  const colour = (x) => row.slice(4 * Math.round((x - x_g) * scale + pore.width / 2)).slice(0, 4).join();
+  return [colour(0.3) === colour(1.7), colour(1.7) === colour(3)].join(' ') })()")"
+picture second-mouth
 
 expect "nothing complains" 0 "$(call POST "$at/se/log" '{"type": "browser"}' | jq '.value | length')"

@@ -144,6 +144,21 @@ BOOST_AUTO_TEST_CASE(between_two_mouths) {
   }
 }
 
+// What a second mouth adds to a sphere's resistance in a long pore decays with their distance as the slowest field in a tube
+// does, exp(-3.8317 d), the first zero of J_1. The rate is met to 3e-4.
+BOOST_AUTO_TEST_CASE(a_second_mouth_is_felt_less_and_less) {
+  constexpr double slowest = 3.8317, exit = 8;
+  const Meter with(make_pore({.shape = PoreShape::two_mouths, .exit_x = exit}).value(), 48),
+      without(make_pore({.exit_x = 2 * exit}).value(), 48);
+  for (const double radius : {0.5, 0.8}) {
+    const auto felt = [&](double distance) {
+      return with.sphere(exit - distance, radius) - without.sphere(exit - distance, radius);
+    };
+    BOOST_TEST(std::abs(std::log(felt(2.4) / felt(2.8)) / 0.4 / slowest - 1) < 1e-3);
+    BOOST_TEST(std::abs(felt(2.4)) < 2 * std::exp(-slowest * (2.4 - radius))); // from its front on
+  }
+}
+
 // The ends of the pore are not the ends of the conductor.
 BOOST_AUTO_TEST_CASE(ends_of_the_pore_do_not_count) {
   const Meter standard(make_pore({}).value(), 40);

@@ -7,7 +7,9 @@
 #include "scene/make_flow.hpp"
 #include "scene/resolution.hpp"
 #include "spheroid.hpp"
+#include <array>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <numbers>
 
 using namespace capsule;
@@ -100,6 +102,32 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_between_two_mouths) {
     BOOST_TEST(std::abs(before.v_g - behind.v_g) < 1e-7);
     BOOST_TEST(std::abs(before.pressure_drop - behind.pressure_drop) < 2e-7);
     BOOST_TEST(std::abs(behind.reciprocal - behind.pressure_drop) < 2e-6);
+  }
+}
+
+// What a second mouth does to a sphere in a long pore is a sum of Stokes flows that decay along a tube. The slowest one goes
+// as Re C exp(-b d), b = 4.466299 + 1.467470 i: of three values at even distances, the third follows from the others, to
+// 1.9e-3. The reservoirs reach so far that their ends do not count.
+BOOST_AUTO_TEST_CASE(a_second_mouth_is_felt_less_and_less) {
+  constexpr double exit = 8, a = 0.5, step = 0.4;
+  const auto in = [&](PoreShape shape, double end, double distance) {
+    Case physics = pore_case(a, exit - distance);
+    physics.pore = {.shape = shape, .exit_x = end, .entrance_distance = 300};
+    return rigid_sphere_in(physics, exit - distance, a);
+  };
+  std::array<RigidSphere, 3> with{}, without{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double distance = 2 + static_cast<double>(k) * step;
+    with.at(k) = in(PoreShape::two_mouths, exit, distance);
+    without.at(k) = in(PoreShape::hyperbolic, 2 * exit, distance);
+  }
+  constexpr double decay = 4.466299, turn = 1.467470;
+  const double sum = 2 * std::exp(-decay * step) * std::cos(turn * step),
+               product = std::exp(-2 * decay * step);
+  for (const auto value : {&RigidSphere::v_g, &RigidSphere::pressure_drop}) {
+    const auto felt = [&](std::size_t k) { return with.at(k).*value - without.at(k).*value; };
+    BOOST_TEST(std::abs(felt(0)) < 4 * std::exp(-decay * (2 - a))); // from its front on
+    BOOST_TEST(std::abs(felt(2) / (sum * felt(1) - product * felt(0)) - 1) < 3e-3);
   }
 }
 
