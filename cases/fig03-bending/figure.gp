@@ -1,5 +1,5 @@
 delta(i) = parameter(run(i), "membrane.bending_ratio")
-name(i) = "{/:Italic δ} = ".(delta(i) == 0 ? "0" : sprintf("10^{%.4g}", log10(delta(i))))
+name(i) = "{/:Italic δ} = ".(delta(i) == 0 ? "0" : gprintf("10^{%.4g}", log10(delta(i))))
 end(i, quantity) = result(run(i), quantity)
 # A run that fails between two profiles ends behind the last one.
 last_profile(i) = number(system(sprintf("tail -n 1 %s | cut -d, -f2", quoted(profiles(run(i))))))

@@ -24,8 +24,9 @@ fit_power(file, x, y, first) = sprintf("stats '%s' using (log(column('%s'))):(lo
   file, x, y, first)
 columns = "lambda1 lambda5 paper"
 column_title(c) = word("{/:Italic@λ}@=@1 {/:Italic@λ}@=@5 paper's@numerics", c)
-# Of a column: two have a viscosity ratio, the last one has none.
+# Of a column and of a scene: two are told by their viscosity ratio, the third has a colour of its own.
 line(c) = linetype_of_ratio(word("1 5 0", c) + 0, 5)
+scene_line(s) = linetype_of_ratio(word("1 5 0", s) + 0, 6)
 kinds = "membrane wall"
 array membrane_power[3]; array wall_power[3]; array scene_power[3]
 do for [c=1:3] {
@@ -35,7 +36,7 @@ do for [c=1:3] {
 do for [s=1:3] {
   eval fit_power(points_of(s, 1), "label", "seconds", 0); scene_power[s] = fit_slope
 }
-titled(text, power) = sprintf("%s: %.1f", spaced(text), abs(power) < 0.05 ? 0 : power)
+titled(text, power) = spaced(text).": ".gprintf("%.1f", abs(power) < 0.05 ? 0 : power)
 
 eval figure("speed-accuracy", 24, 24)
 set multiplot layout 3, 3 margins 0.075, 0.985, 0.055, 0.93 spacing 0.055, 0.05
@@ -91,7 +92,7 @@ plot for [c=1:3] data."growth-wall.csv" using "elements":word(columns, c) with l
 set xlabel "accuracy asked for"; set ylabel "CPU seconds of an entrance"
 set format x "10^{%T}"; set xtics auto
 set xrange [2e-2:5e-8]; set yrange [0.05:50]
-plot for [s=1:3] points_of(s, 1) using "label":"seconds" with linespoints linetype s \
+plot for [s=1:3] points_of(s, 1) using "label":"seconds" with linespoints linetype scene_line(s) \
   title titled(scene_title(s), scene_power[s])
 unset multiplot
 print "**How the time grows.** With the nodes of the membrane and the points of the wall: CPU seconds for the velocity of one", \

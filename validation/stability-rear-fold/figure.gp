@@ -19,9 +19,9 @@ set ytics (5, 10, 20, 50, 100, 200)
 set xlabel delta_label; set ylabel "curvature × {/:Italic R}_t;  nodes"
 set key bottom left
 plot meshes using ($2 == finest ? $1 : NaN):"curvature" with linespoints linetype 1 title "largest curvature, ".finest." nodes", \
-  [softest:1e-3] at(1e-3, 2) * (x / 1e-3) ** p with lines linetype 1 linewidth 0.7 dashtype 3 title sprintf("δ^{%.2f}", p), \
+  [softest:1e-3] at(1e-3, 2) * (x / 1e-3) ** p with lines linetype 1 linewidth 0.7 dashtype 3 title gprintf("δ^{%.2f}", p), \
   folds using "bending_ratio":"nodes" with points linetype 2 title "nodes for 1 % of it", \
-  [hard / 3:1e-3] nodes_at_end * (x / hard) ** q with lines linetype 2 linewidth 0.7 dashtype 3 title sprintf("δ^{%.2f}", q), \
+  [hard / 3:1e-3] nodes_at_end * (x / hard) ** q with lines linetype 2 linewidth 0.7 dashtype 3 title gprintf("δ^{%.2f}", q), \
   for [i = 1:words(sizes)] "+" using (last_of(word(sizes, i))):(word(sizes, i) + 0) every ::::0 with points linetype 3 \
     title i == 1 ? "softest membrane of a mesh (tried to 10^{−6})" : ""
 print "**The rear fold.** Table 3's capsule (Skalak, A/B = 0.28, steady): largest curvature of the meridian, at the rim of the rear, against the", \
