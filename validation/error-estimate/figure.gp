@@ -28,7 +28,7 @@ small = "$k[\"difference\"] - $k[\"floor\"] > $k[\"estimate\"]"
 large = "$k[\"holds\"] == 0 && !(".small.")"
 print "**Error estimates.** Estimated against true errors of", \
   sprintf("%d capsules, into a pore or through one with two mouths: spheres and ellipsoids, both laws, viscosity ratios from 0.2 to 10, accuracies from 1e-2 to 1e-6;", capsules), \
-  sprintf("the largest along the way in colours, those of values at the end and at the peak in grey. Of %d of the first", way("1")), \
+  sprintf("the largest along the way in colours, those of values at the end, at the peak and at their largest in grey. Of %d of the first", way("1")), \
   sprintf("%d estimates are too small and %d more than 30 times the error, of %d of the others %d and %d.", \
     way(small), way(large), single("1"), single(small), single(large)), \
   sprintf("%d are not drawn, because the refined runs leave them open.", count("$k[\"determined\"] == 0"))

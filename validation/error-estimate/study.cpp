@@ -164,7 +164,7 @@ bool study(const std::string &directory, unsigned jobs) {
   };
   const std::string result =
       told("largest errors along the way", ways) +
-      told("errors of values at the end and at the peak", values) +
+      told("errors of values at the end, at the peak and at their largest", values) +
       fmt::format("{} of {} capsules have all the former between the error and 30 times the error\n",
                   good_capsules, capsules().size()) +
       missing;
