@@ -83,6 +83,12 @@ StudyRun told_by(const Outcome &outcome) {
   if (const auto peak = entry_peak(outcome.last.series))
     for (const PeakQuantity &quantity : peak_quantities())
       run.summary.quantities[quantity.name] = (*peak).*quantity.value;
+  for (const LargestQuantity &quantity : largest_quantities()) {
+    const auto largest = largest_on_the_way(outcome.last.series, quantity.value, quantity.S);
+    const std::string name = std::string("largest_") + quantity.name;
+    run.summary.quantities[name] = largest->value;
+    run.summary.quantities["x_g_at_" + name] = largest->x_g;
+  }
   return run;
 }
 
