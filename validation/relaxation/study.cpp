@@ -4,11 +4,13 @@
 // marches in a longer tube and in the paper's, whose exit is near there; and on, to where the capsule has settled.
 #include "study.hpp"
 #include "compare/expectations.hpp"
+#include "geometry/meridian.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/motion.hpp"
 #include "observe/gauge.hpp"
 #include "steady/growth_rates.hpp"
 #include "steady/mesh_change.hpp"
+#include "steady/newton.hpp"
 #include "steady/steady_state.hpp"
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -114,6 +116,13 @@ private:
   Eigen::MatrixXcd inverse_;
 };
 
+// The steady state at the nodes of a march, which lie evenly, and not where the shape needs them.
+SteadyState on_nodes_of_march(const Case &physics) {
+  const SteadyState found = find_steady(physics, {}, {});
+  const auto system = system_on_mesh(physics, spectral_basis(nodes).nodes);
+  return {system, solve_steady(*system, moved_to(*system, *found.system, found.unknowns))};
+}
+
 Checkpoint reach(Case physics, double exit_x, double x_g, const Checkpoint &from) {
   physics.pore.exit_x = exit_x;
   physics.until.x_g = x_g;
@@ -136,7 +145,7 @@ double settled_at(const std::vector<SeriesRow> &series) {
 std::string row_text(const Row &row) {
   using enum SmallMotions::Which;
   const Case physics = case_of(row);
-  const SteadyState state = on_mesh(physics, nodes, find_steady(physics, {}, {}));
+  const SteadyState state = on_nodes_of_march(physics);
   const double rate = growth_rates(*state.system, state.unknowns, row.viscosity_ratio)[0].real();
   const SmallMotions motions(state, row.viscosity_ratio);
 
@@ -177,7 +186,7 @@ std::string row_text(const Row &row) {
 
 std::string rates_text() {
   const Case physics = case_of(rows[1]);
-  const SteadyState state = on_mesh(physics, nodes, find_steady(physics, {}, {}));
+  const SteadyState state = on_nodes_of_march(physics);
   std::string text;
   for (int k = 0; k <= 16; ++k) {
     const double viscosity_ratio = std::pow(10, -2 + 0.25 * k);
