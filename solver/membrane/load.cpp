@@ -7,9 +7,11 @@ namespace capsule {
 Vector nodal_area(const Membrane &membrane, const Vector &position) {
   if (membrane.basis.spline)
     throw std::invalid_argument("nodal loads need a spectral basis");
-  const Trace nodes = trace(membrane.at_nodes, position);
   const Eigen::Index n = membrane.basis.size();
-  return 2 * std::numbers::pi * membrane.basis.weights.array() * position.tail(n).array() * nodes.arc.array();
+  const Eigen::ArrayXd x_zeta = membrane.at_nodes.even_field(1, position.head(n));
+  const Eigen::ArrayXd r_zeta = membrane.at_nodes.odd_field(1, position.tail(n));
+  return 2 * std::numbers::pi * membrane.basis.weights.array() * position.tail(n).array() *
+         (x_zeta.square() + r_zeta.square()).sqrt();
 }
 
 Vector membrane_load(const Membrane &membrane, const Vector &position) {

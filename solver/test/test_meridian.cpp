@@ -1,6 +1,7 @@
 // The bases of the meridian on functions whose derivatives are known.
 #include "geometry/meridian.hpp"
 #include "geometry/quadrature.hpp"
+#include "geometry/sampling.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -170,6 +171,38 @@ BOOST_AUTO_TEST_CASE(spline_quadrature_integrates_the_odd_spline) {
   const Panels elements = make_panels(basis.nodes, 4);
   const Vector integrals = basis.odd(elements.points, 0).transpose() * elements.weights;
   BOOST_TEST((integrals - basis.weights).lpNorm<Eigen::Infinity>() < 1e-14);
+}
+
+// With and without a node or a point on the equator, against the matrices themselves.
+BOOST_AUTO_TEST_CASE(mirrored_products_are_the_matrices) {
+  for (const int nodes : {30, 31})
+    for (const int points : {40, 41}) {
+      const MeridianBasis basis = spectral_basis(nodes);
+      const Vector zeta = Vector::LinSpaced(points, 0.01, pi - 0.01);
+      const Sampling at = sample(basis, zeta, Vector::Ones(points));
+      BOOST_REQUIRE(at.is_mirrored);
+      const Vector nodal =
+          (3 * basis.nodes.array()).sin() + basis.nodes.array().exp(); // neither is symmetric
+      const Vector values = (2 * zeta.array()).cos() + zeta.array();
+      for (int derivative = 0; derivative <= 2; ++derivative) {
+        const auto check = [](const Vector &one, const Vector &other) {
+          BOOST_TEST((one - other).norm() < 1e-13 * other.norm());
+        };
+        check(at.even_field(derivative, nodal), at.even[derivative] * nodal);
+        check(at.odd_field(derivative, nodal), at.odd[derivative] * nodal);
+        check(at.on_even_nodes(derivative, values), at.even[derivative].transpose() * values);
+        check(at.on_odd_nodes(derivative, values), at.odd[derivative].transpose() * values);
+      }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(points_that_do_not_mirror_are_taken_as_they_are) {
+  const MeridianBasis basis = spectral_basis(30);
+  const Vector zeta = Vector::LinSpaced(20, 0.1, 2);
+  const Sampling at = sample(basis, zeta, Vector::Ones(20));
+  BOOST_TEST(!at.is_mirrored);
+  const Vector x = at.even_field(1, tabulate(even_function, basis.nodes, 0));
+  BOOST_TEST((x - tabulate(even_function, zeta, 1)).norm() < 1e-11);
 }
 
 BOOST_AUTO_TEST_CASE(impossible_bases_are_refused) {
