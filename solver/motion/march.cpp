@@ -181,7 +181,7 @@ private:
   // Rows are interpolated: a step passes two of them at most. The companion's are as long as its error allows, or both would
   // have the same error.
   double longest_step() const {
-    constexpr double rows = 2;
+    constexpr double rows = 3;
     double longest = std::numeric_limits<double>::infinity();
     if (role_ == Role::companion || record_.series.empty()) // begins with a position that is no row
       return longest;
