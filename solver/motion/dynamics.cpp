@@ -1,5 +1,6 @@
 #include "motion/dynamics.hpp"
 #include "membrane/load.hpp"
+#include "motion/stops.hpp"
 #include "paper/paper_system.hpp"
 #include "scene/make_flow.hpp"
 #include <utility>
@@ -9,8 +10,7 @@ namespace capsule {
 namespace {
 
 // The integrator tries a shorter step first, and the march fails if none helps.
-constexpr Advice advice{.at_the_wall = "try a stricter accuracy (a smaller number) or a finer mesh",
-                        .at_the_end = "move pore.exit_x away"};
+constexpr Advice advice{.at_the_wall = touching_advice, .at_the_end = "move pore.exit_x away"};
 
 // The loads of all membranes of a scene.
 struct Loads {

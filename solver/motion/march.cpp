@@ -22,11 +22,13 @@ namespace capsule {
 namespace {
 
 constexpr int rows_in_time = 200; // of a march that ends at a time
-constexpr int steps_between_checks = 250;
+constexpr int steps_between_films = 250;
+constexpr int steps_between_gains = 1000;
 constexpr int steps_between_stability_checks = 1000;
 constexpr Station end_station{
     .value = 0, .profile = true, .regular = true, .end = true}; // not at a given place
-constexpr double least_gain = 1e-4; // of time; a march that gains less between two checks is given up
+// A march that gains less time in all these steps is given up. Most gain more in one step.
+constexpr double least_gain = 1e-2;
 
 // Integrates, records what is due, and stops.
 class March {
@@ -208,20 +210,25 @@ private:
       record_.time = integrator.time();
       record_.position = integrator.state_at(record_.time);
       record_.steps = steps_;
-      if (steps_ % steps_between_checks == 0)
-        check_between_rows();
+      if (steps_ % steps_between_films == 0)
+        check_film();
+      if (steps_ % steps_between_gains == 0 && input_.time.scheme == Scheme::bdf)
+        check_gain();
     }
   }
 
-  void check_between_rows() {
+  void check_film() {
     SeriesRow here; // only the film is measured between rows
     here.min_film = smallest_film(record_.position);
     throw_if_stopped({.row = here});
+  }
+
+  void check_gain() {
     const double gain = record_.time - std::exchange(record_.checked, record_.time);
-    if (input_.time.scheme == Scheme::bdf && gain < least_gain)
+    if (gain < least_gain)
       throw NumericsFailure(failure_kind::unresolved,
-                            fmt::format("the last {} steps lead on by {:.1g} only, with a film of {:.2g}",
-                                        steps_between_checks, gain, here.min_film),
+                            fmt::format("the last {} steps add {:.1g} to the time, with a film of {:.2g}",
+                                        steps_between_gains, gain, smallest_film(record_.position)),
                             "try a finer mesh.membrane");
   }
 

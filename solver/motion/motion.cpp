@@ -6,6 +6,9 @@
 #include "motion/march.hpp"
 #include "observe/transit.hpp"
 #include "scene/resolution.hpp"
+#include <algorithm>
+#include <array>
+#include <utility>
 
 namespace capsule {
 namespace {
@@ -16,7 +19,7 @@ Eigen::Index wall_size(const Case &input) {
   return pore ? wall_panels(*pore, choose_resolution(input).flow).points.size() : 0;
 }
 
-// The same motion, a little coarser: each kind of error is then about three times as large. Much coarser ones tell
+// The same motion, a little coarser: each kind of error is then two to four times as large. Much coarser ones tell
 // less: where convergence is exponential their errors are 10 to 100 times as large, and near an instability they go
 // another way.
 Case companion(const Case &input) {
@@ -30,7 +33,7 @@ Case companion(const Case &input) {
     coarse.mesh.wall = 9 * coarse.mesh.wall / 10;
   while (wall_size(coarse) == wall_size(input) && 2 * coarse.mesh.wall > chosen.wall_points);
   coarse.time.step = input.time.step / 0.9; // as stable on its nodes as the fine one's
-  coarse.time.tolerance = 5 * chosen.time_tolerance;
+  coarse.time.tolerance = 3.5 * chosen.time_tolerance;
   coarse.output.profiles_at_x_g.clear();
   coarse.output.profiles_at_time.clear();
   coarse.output.profiles_every.reset();
@@ -49,16 +52,46 @@ Outcome march_to_end(const Case &input, const Checkpoint &from, const Control &c
   return outcome;
 }
 
-// Failures that may be the mesh's own.
-bool may_pass_on_finer_mesh(const Outcome &outcome) {
-  return outcome.status == Status::failed &&
-         (outcome.failure == failure_kind::wrinkled || outcome.failure == failure_kind::touching ||
-          outcome.failure == failure_kind::unresolved || outcome.failure == failure_kind::softening ||
-          outcome.failure == failure_kind::step);
+// Meshes on which a march is tried, in nodes of the chosen one.
+constexpr std::array meshes{1.0, 1.5, 3.0};
+
+// Failures that may be the mesh's own: on the chosen one many kinds are. Where even the finer one's steps get ever
+// shorter, one that is finer still may pass; the others fail on all meshes, or on none.
+bool may_pass_on_finer_mesh(const Outcome &outcome, double mesh) {
+  if (outcome.status != Status::failed || mesh == meshes.back())
+    return false;
+  const bool steps_get_short =
+      outcome.failure == failure_kind::unresolved || outcome.failure == failure_kind::step;
+  return steps_get_short || (mesh == meshes.front() && (outcome.failure == failure_kind::wrinkled ||
+                                                        outcome.failure == failure_kind::touching ||
+                                                        outcome.failure == failure_kind::softening));
+}
+
+// The input on a mesh so many times as fine as the chosen one, with shorter steps if it is finer.
+Case on_mesh(const Case &input, double mesh) {
+  Case finer = input;
+  if (mesh == meshes.front())
+    return finer;
+  const auto refine = [mesh](Case &capsule) {
+    capsule.mesh.membrane = static_cast<int>(mesh * choose_resolution(capsule).membrane_nodes);
+  };
+  refine(finer);
+  for (Case &follower : finer.followers)
+    refine(follower);
+  if (input.time.tolerance == 0)
+    finer.time.tolerance = choose_resolution(input).time_tolerance / 30;
+  return finer;
+}
+
+Eigen::Index nodes_of_all(const Case &input) {
+  Eigen::Index nodes = choose_resolution(input).membrane_nodes;
+  for (const Case &follower : input.followers)
+    nodes += choose_resolution(follower).membrane_nodes;
+  return nodes;
 }
 
 // The march that is asked for, and the input that it ended with. What fails on a mesh that was chosen from the accuracy
-// may fail through that mesh, and buckles amplify errors: then the march begins again, once, on a finer mesh and with
+// may fail through that mesh, and buckles amplify errors: then the march begins again on a finer mesh and with
 // shorter steps, and what it shows there is believed.
 struct MainMarch {
   Case input;
@@ -68,27 +101,31 @@ MainMarch main_march(const Case &input, const Checkpoint &from, const Control &c
   const bool can_refine = input.mesh.membrane == 0 && input.time.scheme == Scheme::bdf;
   if (!can_refine)
     return {input, march_to_end(input, from, control)};
-  const Resolution chosen = choose_resolution(input);
-  Case finer = input;
-  finer.mesh.membrane = 3 * chosen.membrane_nodes / 2;
-  Eigen::Index finer_nodes = finer.mesh.membrane;
-  for (Case &follower : finer.followers) {
-    follower.mesh.membrane = 3 * choose_resolution(follower).membrane_nodes / 2;
-    finer_nodes += follower.mesh.membrane;
+  // A checkpoint goes on on its own mesh.
+  const auto has_checkpoint = [&](double mesh) {
+    return from.position.size() == 2 * nodes_of_all(on_mesh(input, mesh));
+  };
+  auto mesh = std::ranges::find_if(meshes, has_checkpoint);
+  Checkpoint start = from;
+  if (mesh == meshes.end())
+    mesh = meshes.begin();
+  for (;; ++mesh) {
+    Case marched = on_mesh(input, *mesh);
+    const bool is_finer = mesh != meshes.begin();
+    Outcome outcome =
+        march_to_end(marched, start, control,
+                     is_finer ? wrinkle_roughness : wrinkle_roughness_on_chosen_nodes(input.accuracy));
+    if (may_pass_on_finer_mesh(outcome, *mesh)) {
+      start = {};
+      continue;
+    }
+    if (is_finer) {
+      outcome.membrane_nodes = marched.mesh.membrane;
+      for (const Case &follower : marched.followers)
+        outcome.nodes_of_followers.push_back(follower.mesh.membrane);
+    }
+    return {std::move(marched), std::move(outcome)};
   }
-  if (input.time.tolerance == 0)
-    finer.time.tolerance = chosen.time_tolerance / 30;
-  const bool is_on_finer = from.position.size() == 2 * finer_nodes;
-  if (!is_on_finer) {
-    Outcome outcome = march_to_end(input, from, control, wrinkle_roughness_on_chosen_nodes(input.accuracy));
-    if (!may_pass_on_finer_mesh(outcome))
-      return {input, std::move(outcome)};
-  }
-  Outcome outcome = march_to_end(finer, is_on_finer ? from : Checkpoint{}, control);
-  outcome.membrane_nodes = finer.mesh.membrane;
-  for (const Case &follower : finer.followers)
-    outcome.nodes_of_followers.push_back(follower.mesh.membrane);
-  return {finer, std::move(outcome)};
 }
 
 } // namespace

@@ -18,8 +18,7 @@ constexpr std::array table{
          .what = [](const Instant &) -> std::string {
            return "the membrane touches the wall between its nodes";
          },
-         .advice = "try a stricter accuracy (a smaller number) or a finer mesh.membrane; a capsule that is "
-                   "wider than the pore may need a stronger flow"},
+         .advice = touching_advice},
     Stop{.kind = failure_kind::self_contact,
          .holds = [](const Instant &now) { return now.crosses_itself; },
          .what = [](const Instant &) -> std::string { return "the membrane crosses itself"; },

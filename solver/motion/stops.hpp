@@ -18,6 +18,11 @@ constexpr double wrinkle_roughness = 0.4;
 // The same on nodes that were chosen from the accuracy: there wrinkles have to be resolved to it.
 double wrinkle_roughness_on_chosen_nodes(double accuracy);
 
+// What to try where a membrane comes to touch the wall.
+inline constexpr const char *touching_advice =
+    "try a stricter accuracy (a smaller number) or a finer mesh.membrane; a capsule that is wider than the "
+    "pore may need a stronger flow or a larger membrane.bending_ratio";
+
 // By how much a membrane is strained beyond what it bears; negative: it holds.
 double beyond_bearing(const UntilSpec &limits, const LargestStrain &strain);
 
