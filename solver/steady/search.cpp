@@ -179,11 +179,12 @@ bool is_folded(const Case &input) {
 
 SteadyState searched(const Case &input, const Control &control, const MarchToRest &march,
                      Attempts &attempts) {
-  constexpr double most_work_of_a_way = 700;
+  constexpr double most_work_of_relaxing = 600, most_work_of_a_way = 700;
   const double flow = input.flow.capillary_number;
   const bool fits = extent(input.capsule).half_width <= widest_unsqueezed;
   const double weakest = input.flow.type == FlowType::extension ? 0 : 0.015; // only a tube squeezes
-  std::vector<double> strengths{std::clamp(flow, weakest, 0.06), 0.03, 0.12};
+  constexpr double strong = 0.12, medium = 0.06;
+  std::vector<double> strengths{flow > strong ? medium : std::max(flow, weakest), 0.03, strong};
   std::optional<NumericsFailure> last;
   bool has_looked_elsewhere = false;
   constexpr double weakest_part = 0.125;
@@ -197,7 +198,10 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
       weaker = with_number(weaker, key, std::min(area_modulus_to_relax, number(key, input)));
     bool only_flow_is_left = false;
     try {
-      Homotopy homotopy(input, weaker, by_relaxation(weaker, control), control);
+      Homotopy homotopy(input, weaker,
+                        within(most_work_of_relaxing, control,
+                               [&](const Control &limited) { return by_relaxation(weaker, limited); }),
+                        control);
       for (const char *key : area_keys)
         homotopy.vary(key, number(key, input));
       only_flow_is_left = true;
