@@ -62,9 +62,10 @@ bool may_pass_on_finer_mesh(const Outcome &outcome, double mesh) {
     return false;
   const bool steps_get_short =
       outcome.failure == failure_kind::unresolved || outcome.failure == failure_kind::step;
-  return steps_get_short || (mesh == meshes.front() && (outcome.failure == failure_kind::wrinkled ||
-                                                        outcome.failure == failure_kind::touching ||
-                                                        outcome.failure == failure_kind::softening));
+  return steps_get_short ||
+         (mesh == meshes.front() &&
+          (outcome.failure == failure_kind::wrinkled || outcome.failure == failure_kind::touching ||
+           outcome.failure == failure_kind::softening || outcome.failure == failure_kind::volume));
 }
 
 // The input on a mesh so many times as fine as the chosen one, with shorter steps if it is finer.
