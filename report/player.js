@@ -224,12 +224,12 @@
     pen.stroke();
     pen.textAlign = "center";
     const step_x = step_of(right - left, width / 50), step_y = step_of(top - bottom, height / 28);
-    for (let x = step_x * Math.ceil(left / step_x); x <= right; x += step_x)
-      pen.fillText(tick(x), at_x(x), height - margin.bottom + 16);
+    for (let k = Math.ceil(left / step_x); k * step_x <= right; ++k)
+      pen.fillText(tick(k * step_x), at_x(k * step_x), height - margin.bottom + 16);
     write_label(pen, clock() === "time" ? "t / (πR_t^3/Q)" : "x_g / R_t", (margin.left + width - margin.right) / 2, height - 8);
     pen.textAlign = "right";
-    for (let y = step_y * Math.ceil(bottom / step_y); y <= top; y += step_y)
-      pen.fillText(tick(y), margin.left - 6, at_y(y) + 4);
+    for (let k = Math.ceil(bottom / step_y); k * step_y <= top; ++k)
+      pen.fillText(tick(k * step_y), margin.left - 6, at_y(k * step_y) + 4);
     pen.save();
     pen.translate(14, (height - margin.bottom + margin.top) / 2);
     pen.rotate(-Math.PI / 2);
