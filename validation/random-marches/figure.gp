@@ -8,7 +8,8 @@ long = "$k[\"end\"] == \"too long\""
 failed = "$k[\"end\"] != \"reached\" && $k[\"end\"] != \"too long\""
 way = "$k[\"quantity\"] ~ /@x_g/"
 single = "$k[\"quantity\"] !~ /@x_g/"
-small = "$k[\"verdict\"] == \"too small\""
+small = "$k[\"verdict\"] == \"too small\" && $k[\"warned\"] == 0"
+warned = "$k[\"verdict\"] == \"too small\" && $k[\"warned\"] == 1"
 
 eval figure("ends", 16, 8)
 set multiplot layout 1,2
@@ -29,5 +30,5 @@ print sprintf("**Random marches.** Of %d, %d arrive, %d end before, and %d take 
     ends("$1 != \"\""), ends(arrived), ends(failed), ends(long)), \
   sprintf("Of those that end before, %d arrive on a finer mesh, and the advice helps %d.", \
     ends(failed." && $k[\"refined_end\"] == \"reached\""), ends(failed." && $k[\"helps\"] != \"nothing\"")), \
-  sprintf("Against refined runs, %d of %d estimates of the largest error on the way are too small, and %d of %d of an error at the end or at the peak.", \
-    count(estimates, way." && ".small), count(estimates, way), count(estimates, single." && ".small), count(estimates, single))
+  sprintf("Against refined runs, %d of %d estimates of the largest error on the way are too small, and %d of %d of an error at the end or at the peak; %d more in marches that say so.", \
+    count(estimates, way." && ".small), count(estimates, way), count(estimates, single." && ".small), count(estimates, single), count(estimates, warned))
