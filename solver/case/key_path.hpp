@@ -32,7 +32,8 @@ public:
   double slope(double part) const; // d value/d part
   Case at(double part) const;
   std::string text(double part) const; // "flow.capillary_number = 0.05", in physical units "... (20 nl/s)"
-  // The same of a fold, as which a stronger flow has a name: "flow.capillary_number = 0.05 (20 nl/s), the critical flow rate"
+  // The same of a fold. One that is met as the flow grows has a name: "flow.capillary_number = 0.05 (20 nl/s), the critical
+  // flow rate", without physical units "the critical capillary number".
   std::string fold_text(double part) const;
 
 private:

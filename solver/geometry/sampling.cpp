@@ -6,7 +6,7 @@ namespace {
 
 bool is_symmetric(const Vector &zeta) {
   constexpr double rounding = 1e-14;
-  return (zeta + zeta.reverse()).cwiseAbs().isConstant(std::numbers::pi, rounding);
+  return (zeta + zeta.reverse()).isConstant(std::numbers::pi, rounding);
 }
 
 } // namespace

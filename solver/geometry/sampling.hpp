@@ -6,7 +6,7 @@
 namespace capsule {
 
 // Products of a matrix that takes nodal values to points, where both lie symmetrically about the equator: what is
-// symmetric and what is antisymmetric there is multiplied by a quarter of the matrix each, which takes half the work.
+// symmetric and what is antisymmetric there is multiplied by a quarter of the matrix each, which takes half the work. The same as its products but for rounding errors.
 class MirroredMatrix {
 public:
   MirroredMatrix() = default;

@@ -8,6 +8,7 @@ Vector nodal_area(const Membrane &membrane, const Vector &position) {
   if (membrane.basis.spline)
     throw std::invalid_argument("nodal loads need a spectral basis");
   const Eigen::Index n = membrane.basis.size();
+  // At the nodes x and r are the nodal values: only their derivatives are needed.
   const Eigen::ArrayXd x_zeta = membrane.at_nodes.even_field(1, position.head(n));
   const Eigen::ArrayXd r_zeta = membrane.at_nodes.odd_field(1, position.tail(n));
   return 2 * std::numbers::pi * membrane.basis.weights.array() * position.tail(n).array() *

@@ -148,10 +148,12 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
                other = largest_on_the_way(coarse, quantity.value, quantity.S);
     add(name,
         std::max(std::abs(largest->value - other->value), difference_around_largest(pairs, quantity.value)));
-    const bool has_turned =
-        largest->x_g < fine.back().x_g; // not at the end, where a limit or the way ends it
+    // A value that still grows at the end has no turning point: the end is its place. Where it has become steady its place
+    // may be anywhere on the way.
+    const bool has_turned = largest->x_g < fine.back().x_g;
+    const double shift = has_turned ? shift_of_peak(pairs, quantity.value, largest->x_g) : 0;
     add("x_g_at_" + name, std::max(std::abs(largest->x_g - other->x_g),
-                                   has_turned ? shift_of_peak(pairs, quantity.value, largest->x_g) : 0));
+                                   std::min(shift, std::abs(fine.back().x_g - fine.front().x_g))));
   }
   for (auto &[quantity, difference] : error)
     difference *= safety_of(quantity, scheme);

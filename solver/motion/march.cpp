@@ -22,8 +22,8 @@ namespace capsule {
 namespace {
 
 constexpr int rows_in_time = 200; // of a march that ends at a time
-constexpr int steps_between_films = 250;
-constexpr int steps_between_gains = 1000;
+constexpr int steps_between_film_checks = 250;
+constexpr int steps_between_gain_checks = 1000;
 constexpr int steps_between_stability_checks = 1000;
 constexpr Station end_station{
     .value = 0, .profile = true, .regular = true, .end = true}; // not at a given place
@@ -143,7 +143,8 @@ private:
       });
     } catch (const NumericsFailure &failure) {
       require_stable_step(last_accepted_);
-      throw NumericsFailure(failure.kind, failure.what(), failure.advice + ", or a shorter time.step");
+      throw NumericsFailure(failure.kind, failure.what(),
+                            failure.advice + "; a shorter time.step may help, too");
     }
   }
 
@@ -180,8 +181,8 @@ private:
     return run_steps(integrator, [&] { integrator.step(longest_step()); });
   }
 
-  // Rows are interpolated: a step passes two of them at most. The companion's are as long as its error allows, or both would
-  // have the same error.
+  // Rows are interpolated. In longer steps the velocity that is left at the end errs more (paper-notes/methods.md). The
+  // companion's are as long as its error allows, or both would have the same error.
   double longest_step() const {
     constexpr double rows = 3;
     double longest = std::numeric_limits<double>::infinity();
@@ -210,9 +211,9 @@ private:
       record_.time = integrator.time();
       record_.position = integrator.state_at(record_.time);
       record_.steps = steps_;
-      if (steps_ % steps_between_films == 0)
+      if (steps_ % steps_between_film_checks == 0)
         check_film();
-      if (steps_ % steps_between_gains == 0 && input_.time.scheme == Scheme::bdf)
+      if (steps_ % steps_between_gain_checks == 0 && input_.time.scheme == Scheme::bdf)
         check_gain();
     }
   }
@@ -223,12 +224,18 @@ private:
     throw_if_stopped({.row = here});
   }
 
+  // Empty without a wall.
+  std::string film_text() const {
+    const double film = smallest_film(record_.position);
+    return std::isfinite(film) ? fmt::format(", with a film of {:.2g}", film) : "";
+  }
+
   void check_gain() {
     const double gain = record_.time - std::exchange(record_.checked, record_.time);
     if (gain < least_gain)
       throw NumericsFailure(failure_kind::unresolved,
-                            fmt::format("the last {} steps add {:.1g} to the time, with a film of {:.2g}",
-                                        steps_between_gains, gain, smallest_film(record_.position)),
+                            fmt::format("the last {} steps add {:.1g} to the time{}",
+                                        steps_between_gain_checks, gain, film_text()),
                             "try a finer mesh.membrane");
   }
 

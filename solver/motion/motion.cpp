@@ -55,8 +55,8 @@ Outcome march_to_end(const Case &input, const Checkpoint &from, const Control &c
 // Meshes on which a march is tried, in nodes of the chosen one.
 constexpr std::array meshes{1.0, 1.5, 3.0};
 
-// Failures that may be the mesh's own: on the chosen one many kinds are. Where even the finer one's steps get ever
-// shorter, one that is finer still may pass; the others fail on all meshes, or on none.
+// Failures that may be the mesh's own. On the chosen mesh many kinds may be; on a finer one they are believed. Where
+// steps get ever shorter the finest is tried as well: one of sixty random marches arrives there.
 bool may_pass_on_finer_mesh(const Outcome &outcome, double mesh) {
   if (outcome.status != Status::failed || mesh == meshes.back())
     return false;
@@ -93,7 +93,7 @@ Eigen::Index nodes_of_all(const Case &input) {
 
 // The march that is asked for, and the input that it ended with. What fails on a mesh that was chosen from the accuracy
 // may fail through that mesh, and buckles amplify errors: then the march begins again on a finer mesh and with
-// shorter steps, and what it shows there is believed.
+// shorter steps.
 struct MainMarch {
   Case input;
   Outcome outcome;

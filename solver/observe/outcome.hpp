@@ -35,7 +35,7 @@ struct Checkpoint {
   StepMemory memory = {};                    // of the integrator; empty where it has not begun
   RecycledFlow recycled = {};                // what the flow has left behind
   std::size_t next_x_g = 0, next_time = 0;   // which of the march's stations come next
-  double checked = 0;                        // time up to which the march is known to lead on
+  double checked = 0;                        // time at the last look whether the steps add enough to it
   std::vector<Checkpoint> companion = {};    // of a march that has reached its end: the coarser one beside it
 };
 

@@ -54,6 +54,8 @@ double time_at(const Series &series, double x) {
   return before->time + s * rise + s * (1 - s) * ((1 - s) * first + s * last);
 }
 
+constexpr std::size_t fewest_rows = 4; // for a cubic
+
 // When the resistance passes a level between rows k and k + 1: along the way it is the cubic through four rows.
 double time_of_level(const Series &series, std::size_t k, double level) {
   const std::size_t first = std::min(k - std::min<std::size_t>(k, 1), series.size() - 4);
@@ -92,7 +94,6 @@ double last_above(const Series &series, double level) {
 } // namespace
 
 std::optional<Transit> transit_of(const Case &physics, const Series &series) {
-  constexpr std::size_t fewest_rows = 4;
   if (physics.pore.shape != PoreShape::two_mouths)
     return std::nullopt;
   Transit transit;
@@ -115,7 +116,7 @@ std::optional<Transit> transit_of(const Case &physics, const Series &series) {
 
 std::string remark_on_transit(const Case &physics, const Series &series) {
   const auto transit = transit_of(physics, series);
-  if (!transit || series.empty())
+  if (!transit || series.size() < fewest_rows)
     return "";
   const SeriesRow &first = series.front(), &last = series.back();
   std::vector<std::string> remarks;

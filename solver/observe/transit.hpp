@@ -22,8 +22,9 @@ struct Transit {
   double pulse_height = std::numeric_limits<double>::quiet_NaN();
   Duration pulse_width, pulse_rise, pulse_fall;
 };
-// Of a march; empty where the pore has no second mouth. A pulse has a height, and with it a rise and a fall, if the march
-// begins and ends with less than half of its largest resistance: before the capsule has left, the largest may be to come.
+// Of a march; empty where the pore has no second mouth. A pulse has a height and a width if the march begins and ends
+// with less than half of its largest resistance, because the largest may be to come before the capsule has left. It also has
+// a rise if it begins, and a fall if it ends, with less than a tenth. What is unknown is NaN.
 std::optional<Transit> transit_of(const Case &physics, const std::vector<SeriesRow> &series);
 
 // One line about numbers of a transit that its march does not tell, and why; empty if it tells all.

@@ -179,12 +179,17 @@ bool is_folded(const Case &input) {
 
 SteadyState searched(const Case &input, const Control &control, const MarchToRest &march,
                      Attempts &attempts) {
-  constexpr double most_work_of_relaxing = 600, most_work_of_a_way = 700;
+  constexpr double most_work_of_relaxing = 600,
+                   most_work_of_a_way = 700; // what is found takes less (methods.md)
   const double flow = input.flow.capillary_number;
   const bool fits = extent(input.capsule).half_width <= widest_unsqueezed;
   const double weakest = input.flow.type == FlowType::extension ? 0 : 0.015; // only a tube squeezes
-  constexpr double strong = 0.12, medium = 0.06;
-  std::vector<double> strengths{flow > strong ? medium : std::max(flow, weakest), 0.03, strong};
+  // Straight to the case's own flow, unless a shell buckles on the way, as in a weak one, or a small sphere cannot follow.
+  constexpr double strong = 0.12, medium = 0.06, weak = 0.03;
+  std::vector<double> strengths{flow > strong ? medium : std::max(flow, weakest)};
+  for (const double other : {weak, strong})
+    if (other != strengths.front())
+      strengths.push_back(other);
   std::optional<NumericsFailure> last;
   bool has_looked_elsewhere = false;
   constexpr double weakest_part = 0.125;
