@@ -224,19 +224,16 @@ private:
     throw_if_stopped({.row = here});
   }
 
-  // Empty without a wall.
-  std::string film_text() const {
-    const double film = smallest_film(record_.position);
-    return std::isfinite(film) ? fmt::format(", with a film of {:.2g}", film) : "";
-  }
-
   void check_gain() {
     const double gain = record_.time - std::exchange(record_.checked, record_.time);
-    if (gain < least_gain)
-      throw NumericsFailure(failure_kind::unresolved,
-                            fmt::format("the last {} steps add {:.1g} to the time{}",
-                                        steps_between_gain_checks, gain, film_text()),
-                            "try a finer mesh.membrane");
+    if (gain >= least_gain)
+      return;
+    const double film = smallest_film(record_.position); // infinite without a wall
+    throw NumericsFailure(
+        failure_kind::unresolved,
+        fmt::format("the last {} steps add {:.1g} to the time{}", steps_between_gain_checks, gain,
+                    std::isfinite(film) ? fmt::format(", with a film of {:.2g}", film) : ""),
+        "try a finer mesh.membrane");
   }
 
   // When the membrane came to what it bears in the last step, if it did.
