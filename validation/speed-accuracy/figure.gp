@@ -42,7 +42,7 @@ eval figure("speed-accuracy", 24, 24)
 set multiplot layout 3, 3 margins 0.075, 0.985, 0.055, 0.93 spacing 0.055, 0.05
 set logscale xy
 set format "10^{%T}"
-set xrange [0.01:30000]
+set xrange [0.006:20000]
 # Labels of neighbouring points stand on different sides; the fastest march of the standard preset has room on its left.
 # Those of the explicit schemes have the rest.
 on_left(k, row) = (k == 1) == (int(row) % 2 == 0)
