@@ -200,7 +200,8 @@ choose run 0
 before=$(script "$drawing" | cksum)
 choose other-run 1
 test "$(script "$drawing" | cksum)" != "$before" || fail "the picture does not show the second run"
-expect "two runs are overlaid at one place" "$(readout x_g)" "$(readout x_g 1)"
+# Each has as many digits as are known of it.
+expect "two runs are overlaid at one place" true "$(script "Math.abs($(readout x_g) - $(readout x_g 1)) < 1e-3")"
 picture overlaid
 before=$(readout x_g)
 choose clock time
