@@ -80,16 +80,21 @@ double shift_of_peak(const std::vector<RowPair> &pairs, double SeriesRow::*value
   return shift;
 }
 
+// Of a value that has its peak at x_g.
+double difference_around(double x_g, const std::vector<RowPair> &pairs, double SeriesRow::*value) {
+  double largest = 0;
+  for (const auto &[row, other] : pairs)
+    if (std::abs(row->x_g - x_g) < around_peak)
+      largest = std::max(largest, std::abs(row->*value - other->*value));
+  return largest;
+}
+
 // Of a value that is the largest on the way.
 double difference_around_largest(const std::vector<RowPair> &pairs, double SeriesRow::*value) {
   const SeriesRow &top = *std::ranges::max_element(pairs, {}, [value](const RowPair &pair) {
                             return (*pair.fine).*value;
                           })->fine;
-  double largest = 0;
-  for (const auto &[row, other] : pairs)
-    if (std::abs(row->x_g - top.x_g) < around_peak)
-      largest = std::max(largest, std::abs(row->*value - other->*value));
-  return largest;
+  return difference_around(top.x_g, pairs, value);
 }
 
 // The largest differences of each quantity along the way, "v_g@x_g", and over its last part, "v_g", both by the leading
@@ -133,15 +138,14 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
   const auto add = [&](const std::string &name, double difference) {
     error[name] = std::max(error[name], std::abs(difference));
   };
-  for (const auto &[row, other] : pairs) {
-    if (by_x_g)
+  if (by_x_g)
+    for (const auto &[row, other] : pairs)
       add("x_g@time", (row->time - other->time) * row->v_g);
-    if (peak && coarse_peak && std::abs(row->x_g - peak->x_g) < around_peak)
-      add("peak_pressure_drop", row->pressure_drop - other->pressure_drop);
-  }
-  if (peak && coarse_peak)
+  if (peak && coarse_peak) {
+    add("peak_pressure_drop", difference_around(peak->x_g, pairs, &SeriesRow::pressure_drop));
     add("x_g_at_peak", std::max(std::abs(peak->x_g - coarse_peak->x_g),
                                 shift_of_peak(pairs, &SeriesRow::pressure_drop, peak->x_g)));
+  }
   for (const LargestQuantity &quantity : largest_quantities()) {
     const std::string name = std::string("largest_") + quantity.name;
     const auto largest = largest_on_the_way(fine, quantity.value, quantity.S),

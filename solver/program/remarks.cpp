@@ -30,6 +30,11 @@ std::string what_ended(const UntilSpec &until, const std::map<std::string, doubl
   return fmt::format("{} (with pore.exit_x)", by_last ? "until.last_x_g" : "until.x_g");
 }
 
+// "in 2 of 3 runs"; empty where there is one.
+std::string of_runs(const char *before, std::size_t some, const std::vector<RunResult> &results) {
+  return results.size() == 1 ? "" : fmt::format("{}{} of {}", before, some, counted(results.size(), "run"));
+}
+
 } // namespace
 
 std::string unsteady_remark(const std::vector<RunResult> &results) {
@@ -65,8 +70,7 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
   return fmt::format(
       "not steady yet{}: the membrane still moves with {}{:.2g} relative to its centre; a larger {} leads "
       "nearer{}",
-      results.size() == 1 ? "" : fmt::format(", {} of {}", unsteady, counted(results.size(), "run")),
-      unsteady == 1 ? "" : "up to ", fastest, later,
+      of_runs(", ", unsteady, results), unsteady == 1 ? "" : "up to ", fastest, later,
       is_of_one ? ", `capsule steady` tells whether there is a steady state" : "");
 }
 
@@ -91,8 +95,7 @@ std::string outlet_remark(const std::vector<RunResult> &results) {
   return fmt::format(
       "the two routes to the pressure drop differ by {:.0f} %{}, of which the estimate says nothing: the "
       "end of the pore may be too near; a larger pore.exit_x moves it away",
-      100 * largest,
-      results.size() == 1 ? "" : fmt::format(" or less in {} of {}", runs, counted(results.size(), "run")));
+      100 * largest, of_runs(" or less in ", runs, results));
 }
 
 std::string wrinkle_remark(const std::vector<RunResult> &results) {
@@ -119,7 +122,7 @@ std::string wrinkle_remark(const std::vector<RunResult> &results) {
     return "";
   return fmt::format(
       "the membrane wrinkled{}: up to {:.0f} dents {}; a larger {} smooths it{}",
-      results.size() == 1 ? "" : fmt::format(" in {} of {}", runs, counted(results.size(), "run")), most,
+      of_runs(" in ", runs, results), most,
       from < to ? fmt::format("between x_g = {:.4g} and {:.4g}", from, to)
                 : fmt::format("at x_g = {:.4g}", from),
       bending_key,
@@ -156,13 +159,10 @@ std::string bearing_remark(const std::vector<RunResult> &results) {
     if (first.empty())
       first = strain;
   }
-  return runs == 0
-             ? ""
-             : fmt::format("strained beyond what the membrane bears{}: {}; only a march ends where it bursts",
-                           results.size() == 1
-                               ? ""
-                               : fmt::format(" in {} of {}", runs, counted(results.size(), "run")),
-                           first);
+  if (runs == 0)
+    return "";
+  return fmt::format("strained beyond what the membrane bears{}: {}; only a march ends where it bursts",
+                     of_runs(" in ", runs, results), first);
 }
 
 } // namespace capsule
