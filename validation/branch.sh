@@ -42,18 +42,20 @@ grep -q 'computed before' log && cmp before branch/branch.csv || fail 'a finishe
 
 ends 0 branch case.toml --along $key --to 0.3 --out folded
 [ "$(of folded status)" = '"unbounded"' ] || fail 'the branch does not run away'
-grep -q "unbounded  $key 0\.[0-9]*  v_g" log || fail 'the line of a branch does not say where it ends'
+grep -q "  end at $key 0\.[0-9]*  v_g" log || fail 'the line of a branch does not say where it ends'
 sed -n '/"folds"/,/\]/p' folded/summary.json >folds
-[ "$(grep -c "\"$key\"" folds)" -eq 1 ] || fail 'not one fold'
+[ "$(grep -c '"growth_rate"' folds)" -eq 1 ] || fail 'not one fold'
 fold=$(of folded $key)
-near "$(sed -n 's/.*  fold at \([0-9.]*\).*/\1/p' log)" "$fold" 1e-6 'the line of a branch tells another fold'
+near "$(sed -n "s/.*  fold at $key \([0-9.]*\) +- .*, stretch .*/\1/p" log)" "$fold" 1e-6 'the line of a branch tells another fold'
+grep -q "behind the fold at $key = 0\.[0-9]* +- .*, the critical capillary number;" log || fail 'the message does not tell the fold'
+grep -A 20 '"error_estimate"' folds | grep -q "\"$key\": [0-9.]*e-" || fail 'the fold has no error estimate'
 sed -n 's/.*timestep="\([^"]*\)".*/\1/p' folded/membrane.pvd >times
 sort -nu times | cmp - times && grep -q "Name=\"$key\"" folded/membrane_0001.vtp ||
   fail 'a reader that sorts by time shows another branch'
 awk -F, -v fold="$fold" 'NR > 1 && $1 >= fold { exit 1 }' folded/branch.csv || fail "a point beyond the fold at $fold"
 near "$(point folded '$' growth_rate)" 10 9.999 'beyond the fold small motions grow'
 ends 3 steady case.toml --out beyond --set $key="$(awk -v f="$fold" 'BEGIN { print 1.002 * f }')"
-said=$(sed -n "s/.*fold at $key = \([0-9.]*\), the critical capillary number;.*/\1/p" log)
+said=$(sed -n "s/.*fold at $key = \([0-9.]*\) +- .*, the critical capillary number;.*/\1/p" log)
 near "$said" "$fold" "$(awk -v f="$fold" 'BEGIN { print 1e-4 * f }')" 'the fold'
 ends 0 steady case.toml --out below --set $key="$(awk -v f="$fold" 'BEGIN { print 0.998 * f }')"
 
@@ -66,6 +68,9 @@ cmp folded/branch.csv curve/branch.csv || fail 'a branch whose fold is followed 
 awk -F, 'NR == 2' curve/fold_curve.csv | grep -q '^0.01,' || fail 'the fold does not begin at the membrane of the case'
 near "$(awk -F, 'NR == 2 { print $2 }' curve/fold_curve.csv)" "$fold" 1e-7 'the fold where it begins'
 near "$(awk -F, 'END { print $2 }' curve/fold_curve.csv)" "$(of stiffer $key)" 1e-6 'the fold of a stiffer membrane'
+sed -n '/"fold_curve_end"/,/^  }/p' curve/summary.json >last
+near "$(sed -n "s/^    \"$key\": \([^,]*\),*/\1/p" last)" "$(of stiffer $key)" 1e-6 'the end of the curve in the summary'
+grep -q "^      \"$key\": [0-9.]*e-" last || fail 'the end of the curve has no error estimate'
 near "$(awk -F, 'END { print $NF }' curve/fold_curve.csv)" 0 1e-3 'the growth rate at a fold'
 ends 3 branch case.toml --along $key --to 0.101 --fold-along $stiffer --fold-to 0.02 --out no-curve
 grep -q 'no fold on the way' log || fail 'there is nothing to follow'
@@ -96,6 +101,7 @@ awk -F, -v key="$key" '
   { rate = $column["physical.flow_rate [m3/s]", 0]; pressure = rate / (3.14159265358979 * 50e-6 ^ 3) }
   $1 != eps[FNR] || apart(rate, 1e-10 * eps[FNR]) || apart($column["pressure_drop [Pa]", 0], drop[FNR] * pressure) { exit 1 }
   ' physical/branch.csv physical/branch_physical.csv || fail 'the branch in SI units'
+grep -q 'fold at a flow rate of .* nl/s, the critical flow rate' log || fail 'the critical flow rate is not named'
 near "$(sed -n 's/.*fold at a flow rate of \(.*\) nl\/s.*/\1/p' log | awk '{ print $1 / 100 }')" "$fold" 1e-4 'its flow rate'
 ends 3 steady physical.toml --out critical --set physical.flow_rate="$(awk -v f="$fold" 'BEGIN { print 100.2 * f }') nl/s"
 near "$(sed -n 's/.*(\([0-9.]*\) nl\/s), the critical flow rate;.*/\1/p' log | awk '{ print $1 / 100 }')" "$fold" 1e-4 'the critical flow rate'

@@ -45,6 +45,15 @@ std::string number_text(double value) {
   return text;
 }
 
+std::string number_with_error(double value, std::optional<double> error) {
+  constexpr double fewest = 6, most = 12; // digits
+  if (!error)
+    return fmt::format("{:.{}g}", value, static_cast<int>(fewest));
+  const double digits = 1 + std::ceil(std::log10(std::abs(value) / *error));
+  return fmt::format("{:.{}g} +- {:.2g}", value,
+                     static_cast<int>(digits > fewest ? std::min(digits, most) : fewest), *error);
+}
+
 std::optional<double> to_number(const std::string &text) {
   char *end = nullptr;
   errno = 0;

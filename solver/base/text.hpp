@@ -12,6 +12,9 @@ namespace capsule {
 // The shortest decimal text that reads back as the same double: "0.2", "15", "1e-5", "nan", "-inf".
 std::string number_text(double value);
 
+// With its error, if it is known, and the digits that this leaves: "0.1700807 +- 1.2e-07", otherwise "0.170081".
+std::string number_with_error(double value, std::optional<double> error);
+
 // The number, if the whole text is one; nothing for one that is too large.
 std::optional<double> to_number(const std::string &text);
 

@@ -1,4 +1,5 @@
 #include "case/key_path.hpp"
+#include "base/text.hpp"
 #include "case/keys.hpp"
 #include "case/physical.hpp"
 #include "case/value_lists.hpp"
@@ -71,15 +72,20 @@ Case KeyPath::at(double part) const {
 }
 
 std::string KeyPath::text(double part) const {
-  const std::string rate = key_ == flow_key ? flow_rate_text(start_, value(part)) : "";
-  return fmt::format("{} = {:.6g}{}", key_, value(part), rate.empty() ? "" : " (" + rate + ")");
+  return text(part, {});
 }
 
-std::string KeyPath::fold_text(double part) const {
+std::string KeyPath::text(double part, std::optional<double> error) const {
+  const std::string rate = key_ == flow_key ? flow_rate_text(start_, value(part)) : "";
+  return fmt::format("{} = {}{}", key_, number_with_error(value(part), error),
+                     rate.empty() ? "" : " (" + rate + ")");
+}
+
+std::string KeyPath::fold_text(double part, std::optional<double> error) const {
   if (key_ != flow_key || to_ < from_)
-    return text(part);
+    return text(part, error);
   const bool has_rate = !flow_rate_text(start_, value(part)).empty();
-  return fmt::format("{}, the critical {}", text(part), has_rate ? "flow rate" : "capillary number");
+  return fmt::format("{}, the critical {}", text(part, error), has_rate ? "flow rate" : "capillary number");
 }
 
 } // namespace capsule

@@ -32,12 +32,13 @@ public:
   double slope(double part) const; // d value/d part
   Case at(double part) const;
   std::string text(double part) const; // "flow.capillary_number = 0.05", in physical units "... (20 nl/s)"
-  // The same of a fold. One that is met as the flow grows has a name: "flow.capillary_number = 0.05 (20 nl/s), the critical
-  // flow rate", without physical units "the critical capillary number".
-  std::string fold_text(double part) const;
+  // The same of a fold. One that is met as the flow grows has a name: "flow.capillary_number = 0.05 +- 2e-7 (20 nl/s),
+  // the critical flow rate", without physical units "the critical capillary number". The value's error may be unknown.
+  std::string fold_text(double part, std::optional<double> error = {}) const;
 
 private:
   bool is_straight() const { return from_ < 0 || to_ < 0 || natural_size(key_, 0) > 0; }
+  std::string text(double part, std::optional<double> error) const;
   double even(double value) const; // what changes evenly: the value or its eighth root
   double root(double part) const;
 

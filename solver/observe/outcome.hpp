@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,20 @@ struct Checkpoint {
   std::vector<Checkpoint> companion = {};    // of a march that has reached its end: the coarser one beside it
 };
 
+// Of the key itself, in the error estimates of a fold.
+inline std::optional<double> error_of_place(const std::map<std::string, double> &errors,
+                                            const std::string &key) {
+  const auto found = errors.find(key);
+  return found == errors.end() ? std::nullopt : std::optional(found->second);
+}
+
 // A steady state on a branch.
 struct BranchRow {
   double parameter = 0;
   SeriesRow row;
   double growth_rate = 0; // of the least stable small motion
+  // Only of a fold: the key or quantity -> bound of the absolute error by estimate. Empty where nothing tells it.
+  std::map<std::string, double> error_estimate = {};
 };
 
 // A fold that is followed along a second key: where it is, and the key's value there.

@@ -1,6 +1,7 @@
 #include "output/summary.hpp"
 #include "base/atomic_file.hpp"
 #include "base/json_file.hpp"
+#include "case/key_path.hpp"
 #include "case/keys.hpp"
 #include "case/physical.hpp"
 #include "case/value_lists.hpp"
@@ -52,6 +53,13 @@ Json physical_json(const Case &physics, const Json &summary) {
   return json;
 }
 
+Json errors_json(const std::map<std::string, double> &errors) {
+  Json json = Json::object();
+  for (const auto &[quantity, error] : errors)
+    json[quantity] = finite_or_null(error);
+  return json;
+}
+
 // The last row of a capsule behind the leading one.
 Json end_of(const std::vector<SeriesRow> &series) {
   Json json = Json::object();
@@ -59,6 +67,22 @@ Json end_of(const std::vector<SeriesRow> &series) {
     for (const ReportedQuantity &quantity : reported_quantities())
       if (is_reported(quantity, series.back()))
         json[quantity.name] = finite_or_null(series.back().*quantity.value);
+  return json;
+}
+
+bool applies(const ReportedQuantity &quantity, const Case &physics) {
+  return physics.flow.type == FlowType::pore || !quantity.of_the_pore;
+}
+
+Json fold_json(const Case &physics, const std::string &along, const BranchRow &fold) {
+  Json json{{along, fold.parameter}, {"growth_rate", fold.growth_rate}};
+  for (const ReportedQuantity &quantity : branch_quantities())
+    if (applies(quantity, physics) && is_reported(quantity, fold.row))
+      json[quantity.name] = finite_or_null(fold.row.*quantity.value);
+  if (has_physical(physics))
+    for (const auto &[name, value] : physical_values(physics, along, fold))
+      json["physical"][name] = finite_or_null(value);
+  json["error_estimate"] = errors_json(fold.error_estimate);
   return json;
 }
 
@@ -76,12 +100,12 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
     if (in_physical_units(physics, outcome))
       follower["physical"] = physical_json(physics.followers.at(k), follower);
   }
-  const bool has_pore = physics.flow.type == FlowType::pore;
-  const auto applies = [&](const ReportedQuantity &quantity) { return has_pore || !quantity.of_the_pore; };
   for (const ReportedQuantity &quantity : reported_quantities())
     if (is_reported(quantity, series.empty() ? SeriesRow{} : series.back()))
-      json[quantity.name] =
-          applies(quantity) && !series.empty() ? finite_or_null(series.back().*quantity.value) : Json();
+      json[quantity.name] = applies(quantity, physics) && !series.empty()
+                                ? finite_or_null(series.back().*quantity.value)
+                                : Json();
+  const bool has_pore = physics.flow.type == FlowType::pore;
   const bool moved = outcome.status != Status::steady && outcome.along.empty();
   const auto peak = moved && has_pore ? entry_peak(series) : std::nullopt;
   for (const PeakQuantity &quantity : peak_quantities())
@@ -105,22 +129,18 @@ std::string summary_text(const Case &physics, const Outcome &outcome, const Effo
   if (!outcome.along.empty()) {
     json["along"] = outcome.along;
     json["folds"] = Json::array();
-    for (const BranchRow &fold : outcome.folds) {
-      Json entry{{outcome.along, fold.parameter}, {"growth_rate", fold.growth_rate}};
-      for (const ReportedQuantity &quantity : branch_quantities())
-        if (applies(quantity) && is_reported(quantity, fold.row))
-          entry[quantity.name] = finite_or_null(fold.row.*quantity.value);
-      if (has_physical(physics))
-        for (const auto &[name, value] : physical_values(physics, outcome.along, fold))
-          entry["physical"][name] = finite_or_null(value);
-      json["folds"].push_back(std::move(entry));
-    }
+    for (const BranchRow &fold : outcome.folds)
+      json["folds"].push_back(fold_json(physics, outcome.along, fold));
     if (!outcome.fold_along.empty())
       json["fold_along"] = outcome.fold_along;
+    if (!outcome.fold_curve.empty()) {
+      const auto &[second, fold] = outcome.fold_curve.back();
+      Json &end = json["fold_curve_end"];
+      end = fold_json(with_number(physics, outcome.fold_along, second), outcome.along, fold);
+      end[outcome.fold_along] = second;
+    }
   }
-  json["error_estimate"] = Json::object();
-  for (const auto &[quantity, error] : outcome.error_estimate)
-    json["error_estimate"][quantity] = finite_or_null(error);
+  json["error_estimate"] = errors_json(outcome.error_estimate);
   json["steps"] = outcome.last.steps;
   json["cpu_seconds"] = effort.cpu_seconds;
   json["wall_seconds"] = effort.wall_seconds;
@@ -160,8 +180,12 @@ Summary read_summary(const std::filesystem::path &directory) {
     summary.message = text("message");
     if (json->contains("along")) {
       summary.along = text("along");
-      for (const Json &fold : json->at("folds"))
-        summary.folds.push_back({fold.at(summary.along), fold.at("max_stretch")});
+      for (const Json &fold : json->at("folds")) {
+        const Json errors = fold.value("error_estimate", Json::object()); // not of earlier versions
+        const Json error = errors.value(summary.along, Json());
+        summary.folds.push_back({fold.at(summary.along), fold.at("max_stretch"),
+                                 error.is_number() ? std::optional(error.get<double>()) : std::nullopt});
+      }
     }
     for (const auto &[name, value] : json->items())
       if (value.is_number())

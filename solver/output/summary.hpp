@@ -2,6 +2,7 @@
 // summary.json: the end of a run in one object, with its error estimates, its cost and its complete parameters.
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,10 @@ struct Outcome;
 
 std::string summary_text(const Case &physics, const Outcome &outcome, const Effort &effort);
 
-// The key's value on a branch, and the membrane's largest stretch.
+// The key's value on a branch, and the membrane's largest stretch; the error of the value where it is estimated.
 struct FoldPlace {
   double value = 0, stretch = 0;
+  std::optional<double> error = {};
 };
 // Read back. Quantities that do not apply are absent.
 struct Summary {

@@ -1,4 +1,5 @@
 #include "program/run_line.hpp"
+#include "base/text.hpp"
 #include "case/keys.hpp"
 #include "case/physical.hpp"
 #include "observe/outcome.hpp"
@@ -16,7 +17,7 @@ std::vector<std::pair<std::string, std::string>> told_quantities(const RunResult
   std::vector<std::pair<std::string, std::string>> told;
   const bool steady = summary.status == word_of(Status::steady);
   if (!summary.along.empty())
-    told.emplace_back(summary.along, "time"); // on a branch the key takes the place of the time
+    told.emplace_back("end at " + summary.along, "time"); // on a branch the key takes the place of the time
   else if (!steady)
     told = {{"t", "time"}, {"x_g", "x_g"}};
   told.emplace_back("v_g", "v_g");
@@ -29,6 +30,13 @@ std::vector<std::pair<std::string, std::string>> told_quantities(const RunResult
   return told;
 }
 
+// Whether it ends the steady states of a flow that grows: the last fold, behind which the membrane runs away.
+bool is_critical(const FoldPlace &fold, const RunResult &result) {
+  const Summary &summary = *result.summary;
+  return summary.status == word_of(Status::unbounded) && fold.value == summary.folds.back().value &&
+         fold.value > result.input.physics.flow.capillary_number;
+}
+
 std::string in_own_units(const RunResult &result) {
   const Summary &summary = *result.summary;
   const Case &physics = result.input.physics;
@@ -37,7 +45,8 @@ std::string in_own_units(const RunResult &result) {
   if (!summary.along.empty()) { // along most keys the scales change
     std::string folds;
     for (const FoldPlace &fold : summary.along == flow_key ? summary.folds : std::vector<FoldPlace>())
-      folds += fmt::format("\n  fold at a flow rate of {}", flow_rate_text(physics, fold.value));
+      folds += fmt::format("\n  fold at a flow rate of {}{}", flow_rate_text(physics, fold.value),
+                           is_critical(fold, result) ? ", the critical flow rate" : "");
     return folds;
   }
   const Scales scales = physical_scales(physics);
@@ -64,10 +73,11 @@ std::string run_line(const RunResult &result, const std::string &name, bool comp
     if (const auto value = summary.quantities.find(quantity); value != summary.quantities.end())
       text += fmt::format("  {} {:.{}g}", label, value->second, digits);
   };
+  for (const auto &[value, stretch, error] : summary.folds)
+    text += fmt::format("  fold at {} {}, stretch {:.3g}", summary.along, number_with_error(value, error),
+                        stretch);
   for (const auto &[label, quantity] : told_quantities(result))
     add(label, quantity);
-  for (const auto &[value, stretch] : summary.folds)
-    text += fmt::format("  fold at {:.6g}, stretch {:.3g}", value, stretch);
   if (!summary.along.empty() && summary.folds.empty() && summary.failure.empty())
     text += "  no fold on the way";
   add("CPU seconds", "cpu_seconds", 3);

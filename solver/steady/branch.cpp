@@ -9,6 +9,7 @@
 #include "scene/scene.hpp"
 #include "steady/continuation.hpp"
 #include "steady/fold_curve.hpp"
+#include "steady/fold_error.hpp"
 #include "steady/homotopy.hpp"
 #include "steady/refinement.hpp"
 #include "steady/steady_state.hpp"
@@ -110,7 +111,8 @@ public:
       return false;
     if (branch_->turned()) {
       const BranchPoint fold = branch_->fold();
-      outcome().folds.push_back(record(fold, true));
+      BranchRow &row = outcome().folds.emplace_back(record(fold, true));
+      row.error_estimate = errors_of_fold(state_, path_.key(), row.row);
       last_fold_ = {{state_.system, fold.unknowns}, fold.parameter, branch_->tangent_before()};
     }
     branch_->require_stiffness(1);
@@ -131,9 +133,9 @@ public:
     outcome().branch.push_back(record_point(runs_away));
     if (runs_away) {
       outcome().status = Status::unbounded;
-      outcome().message =
-          fmt::format("stretched beyond {} at {}{}; the branch is not followed further", enough,
-                      path_.text(part_), outcome().folds.empty() ? "" : ", behind a fold");
+      outcome().message = fmt::format("stretched beyond {} at {}{}; the branch is not followed further",
+                                      enough, path_.text(part_),
+                                      outcome().folds.empty() ? "" : ", behind the fold at " + fold_text());
       return true;
     }
     if (std::ssize(outcome().branch) > most_points_of_a_branch)
@@ -162,6 +164,8 @@ public:
                       {second.value(point.second_part),
                        {path_.value(point.part), record.row, record.further.at("growth_rate")}});
                 });
+    BranchRow &end = outcome().fold_curve.back().fold;
+    end.error_estimate = errors_of_fold(fold, path_.key(), end.row);
   }
 
   void keep_latest() { record_.keep_latest(); }
@@ -170,6 +174,11 @@ public:
   std::string place() const { return path_.text(part_); }
 
 private:
+  // Of the last one.
+  std::string fold_text() {
+    return path_.fold_text(last_fold_.part,
+                           error_of_place(outcome().folds.back().error_estimate, path_.key()));
+  }
   BranchRow record(const BranchPoint &point, bool profile) {
     go_to(point);
     return record_.add(state_, state_.system->linearise(point.unknowns), point.parameter, profile);

@@ -1,5 +1,6 @@
 #include "steady/homotopy.hpp"
 #include "base/failure.hpp"
+#include "steady/fold_error.hpp"
 #include <fmt/format.h>
 #include <memory>
 
@@ -118,8 +119,12 @@ bool Homotopy::follow(const KeyPath &path) {
         failure_kind::unresolved,
         fmt::format("the branch turns at {} and is not seen to come back", place_.turned_at),
         "begin with a profile of a march (--from)");
-  throw NumericsFailure(failure_kind::fold, fmt::format("fold at {}", path.fold_text(place_.farthest)),
-                        "stay on the near side of it");
+  const SteadyState &fold = place_.fold.state;
+  fold.system->set_parameters(path.at(place_.farthest));
+  throw NumericsFailure(
+      failure_kind::fold,
+      fmt::format("fold at {}", path.fold_text(place_.farthest, error_of_fold(fold, path.key()))),
+      "stay on the near side of it");
 }
 
 } // namespace capsule

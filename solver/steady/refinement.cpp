@@ -15,35 +15,6 @@ double error_of_quadrature(const SeriesRow &row) {
   return std::abs(row.pressure_drop - row.pressure_drop_reciprocal);
 }
 
-double relative_error_of_quadrature(const SeriesRow &row) {
-  return error_of_quadrature(row) / std::max(std::abs(row.pressure_drop), 1.0);
-}
-
-// Errors of the finest of several meshes: its differences from coarser ones, and the quadrature's error, which all may
-// share and which shows between the two pressure drops.
-std::map<std::string, double> errors_of(const SeriesRow &fine, const std::vector<SeriesRow> &coarser) {
-  const double quadrature = error_of_quadrature(fine);
-  const double relative = relative_error_of_quadrature(fine);
-  const auto of_quadrature = [&](double SeriesRow::*value) {
-    return value == &SeriesRow::pressure_drop ? quadrature
-           : value == &SeriesRow::flow_rate   ? (1 - fine.flow_rate) * relative
-                                              : relative;
-  };
-  std::map<std::string, double> errors;
-  for (const ReportedQuantity &quantity : reported_quantities()) {
-    const double value = fine.*quantity.value;
-    if (quantity.error == ErrorEstimate::by_value_itself)
-      errors[quantity.name] = std::abs(value);
-    else if (quantity.error == ErrorEstimate::of_all && is_reported(quantity, fine)) {
-      double &error = errors[quantity.name];
-      error = of_quadrature(quantity.value);
-      for (const SeriesRow &coarse : coarser)
-        error += std::abs(value - coarse.*quantity.value);
-    }
-  }
-  return errors;
-}
-
 // Whether two meshes agree to the accuracy, or as much of it as each quantity asks for. The finer mesh is closer to the
 // truth by an order or more.
 bool agree(const SeriesRow &a, const SeriesRow &b, double accuracy) {
@@ -78,14 +49,6 @@ SteadyRecord measure(const SteadyState &state, const Gauge &gauge) {
   return record;
 }
 
-SteadyRecord measure(const SteadyState &state) {
-  return measure(state, gauge_of(*state.system));
-}
-
-// Of a train: two meshes of the membrane may have one wall and err alike. How much a wall errs depends on where its panels
-// end beside the capsules, and with either sign: one other wall may agree by accident.
-constexpr std::array longer_panels{10.0 / 9, 5.0 / 4};
-
 // Where no finer mesh is asked for, nothing tells whether the shape is resolved. If it is not, one coarser mesh may agree by
 // accident.
 constexpr std::array fewer_nodes{0.875, 0.75};
@@ -97,7 +60,7 @@ void estimate_errors(RefinedState &refined, const SeriesRow &row, SteadyState co
     refined.coarser = {std::move(coarse)};
     for (const double longer : longer_panels) {
       refined.coarser.push_back(on_coarser_wall(refined.state, longer));
-      rows.push_back(measure(refined.coarser.back()).row);
+      rows.push_back(row_of(refined.coarser.back()));
     }
   }
   refined.error_estimate = errors_of(row, rows);
@@ -119,18 +82,49 @@ SteadyState on_finer_mesh(const Case &input, int nodes, const SteadyState &coars
 
 } // namespace
 
+double relative_error_of_quadrature(const SeriesRow &row) {
+  return error_of_quadrature(row) / std::max(std::abs(row.pressure_drop), 1.0);
+}
+
+std::map<std::string, double> errors_of(const SeriesRow &fine, const std::vector<SeriesRow> &coarser) {
+  const double quadrature = error_of_quadrature(fine);
+  const double relative = relative_error_of_quadrature(fine);
+  const auto of_quadrature = [&](double SeriesRow::*value) {
+    return value == &SeriesRow::pressure_drop ? quadrature
+           : value == &SeriesRow::flow_rate   ? (1 - fine.flow_rate) * relative
+                                              : relative;
+  };
+  std::map<std::string, double> errors;
+  for (const ReportedQuantity &quantity : reported_quantities()) {
+    const double value = fine.*quantity.value;
+    if (quantity.error == ErrorEstimate::by_value_itself)
+      errors[quantity.name] = std::abs(value);
+    else if (quantity.error == ErrorEstimate::of_all && is_reported(quantity, fine)) {
+      double &error = errors[quantity.name];
+      error = of_quadrature(quantity.value);
+      for (const SeriesRow &coarse : coarser)
+        error += std::abs(value - coarse.*quantity.value);
+    }
+  }
+  return errors;
+}
+
+SeriesRow row_of(const SteadyState &state) {
+  return measure(state, gauge_of(*state.system)).row;
+}
+
 RefinedState refine(const Case &input, const SteadyState &state, const Control &control) {
   const bool given = input.mesh.membrane > 0;
   RefinedState refined{given ? on_mesh(input, input.mesh.membrane, state) : state, {}, ""};
   auto nodes = static_cast<int>(refined.state.system->nodes());
   refined.state.system->require_stiffness(refined.state.unknowns);
-  SeriesRow row = measure(refined.state).row;
+  SeriesRow row = row_of(refined.state);
   if (given || finer_mesh(nodes) > most_nodes) { // no finer mesh: coarser ones tell the error
     std::vector<SeriesRow> coarse;
     SteadyState coarser;
     for (const double fewer : fewer_nodes) {
       coarser = on_mesh(input, std::max(3, static_cast<int>(fewer * nodes)), refined.state);
-      coarse.push_back(measure(coarser).row);
+      coarse.push_back(row_of(coarser));
     }
     estimate_errors(refined, row, coarser, coarse);
     if (!given && !agree(row, coarse.back(), input.accuracy))
@@ -144,7 +138,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
     refined.state = on_finer_mesh(input, nodes, coarser, control);
     const SeriesRow before = row;
     refined.state.system->require_stiffness(refined.state.unknowns);
-    row = measure(refined.state).row;
+    row = row_of(refined.state);
     const bool enough = agree(row, before, input.accuracy);
     if (!enough && finer_mesh(nodes) <= most_nodes)
       continue;

@@ -3,6 +3,7 @@
 #include "observe/gauge.hpp"
 #include "observe/outcome.hpp"
 #include "steady/mesh_change.hpp"
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -32,6 +33,17 @@ SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
 SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Linearisation &linear,
                            const Gauge &gauge, double viscosity_ratio);
 Gauge gauge_of(const SteadySystem &system);
+
+// Errors of the finest of several meshes: its differences from coarser ones, and the quadrature's error, which all may
+// share and which shows between the two pressure drops. The latter as a part of any quantity.
+std::map<std::string, double> errors_of(const SeriesRow &fine, const std::vector<SeriesRow> &coarser);
+double relative_error_of_quadrature(const SeriesRow &row);
+// Of a state, without rates.
+SeriesRow row_of(const SteadyState &state);
+
+// Of a train: two meshes of the membrane may have one wall and err alike. How much a wall errs depends on where its panels
+// end beside the capsules, and with either sign: one other wall may agree by accident.
+inline constexpr std::array longer_panels{10.0 / 9, 5.0 / 4};
 
 // Of `further` of a train, as of all else: the differences from coarser meshes and the error of the quadrature.
 std::map<std::string, double> errors_of_further(const RefinedState &refined, const SteadyRecord &record,

@@ -2,6 +2,7 @@
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
 #include "steady/fold_curve.hpp"
+#include "steady/fold_error.hpp"
 #include "steady/relaxation.hpp"
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,12 @@ bool proves(const FollowedFold &fold, double thin, double flow) {
 // Thrown where it need not be followed any farther.
 struct Proven {};
 
+// The fold of a membrane as thin as the case's, whose state has its parameters.
+std::string text_of(const SteadyState &fold, const KeyPath &stronger) {
+  const double part = stronger.part(number(stronger.key(), fold.system->input()));
+  return stronger.fold_text(part, error_of_fold(fold, stronger.key()));
+}
+
 // Follows it, from parts of both keys' ways, as far as the nodes can resolve it; on many nodes only until it proves that the
 // flow at the end of `stronger` is too strong.
 FollowedFold follow_to(const KeyPath &softer, double softer_part, const KeyPath &stronger,
@@ -50,26 +57,27 @@ FollowedFold follow_to(const KeyPath &softer, double softer_part, const KeyPath 
   FollowedFold now{.flow = stronger.value(stronger_part),
                    .bending = softer.value(softer_part),
                    .text = stronger.fold_text(stronger_part)};
-  if (!softer.needed())
-    return now;
+  const double thin = softer.value(1);
   try {
-    follow_fold(fold.state, {fold.state.unknowns, stronger_part, softer_part},
-                fold.tangent.head(fold.state.unknowns.size()), stronger, softer, finest, control,
-                [&](const SteadyState &state, const FoldPoint &point) {
-                  const double before = std::exchange(now.flow, stronger.value(point.part));
-                  const double stiffer = std::exchange(now.bending, softer.value(point.second_part));
-                  now.text = stronger.fold_text(point.part);
-                  if (now.bending < stiffer)
-                    now.slope = (now.flow - before) / std::log(now.bending / stiffer);
-                  const double thin = softer.value(1);
-                  if (state.system->nodes() >= many && now.slope != 0 &&
-                      proves(now, thin, stronger.value(1)) &&
-                      change_left(now, thin, safe) < near_enough * now.flow)
-                    throw Proven{};
-                });
+    if (softer.needed())
+      follow_fold(fold.state, {fold.state.unknowns, stronger_part, softer_part},
+                  fold.tangent.head(fold.state.unknowns.size()), stronger, softer, finest, control,
+                  [&](const SteadyState &state, const FoldPoint &point) {
+                    const double before = std::exchange(now.flow, stronger.value(point.part));
+                    const double stiffer = std::exchange(now.bending, softer.value(point.second_part));
+                    now.text = stronger.fold_text(point.part);
+                    if (now.bending < stiffer)
+                      now.slope = (now.flow - before) / std::log(now.bending / stiffer);
+                    if (state.system->nodes() >= many && now.slope != 0 &&
+                        proves(now, thin, stronger.value(1)) &&
+                        change_left(now, thin, safe) < near_enough * now.flow)
+                      throw Proven{};
+                  });
   } catch (const Proven &) {
   } catch (const NumericsFailure &) { // this is how far it could be followed
   }
+  if (now.bending == thin)
+    now.text = text_of(fold.state, stronger);
   return now;
 }
 

@@ -71,6 +71,10 @@ BOOST_AUTO_TEST_CASE(from_one_value_to_another) {
   BOOST_TEST(KeyPath(flow_key, faster, 0.1).fold_text(1) ==
              "flow.capillary_number = 0.1"); // in a weaker flow
   BOOST_TEST(KeyPath("capsule.radius", some_case(), 0.7).fold_text(1) == "capsule.radius = 0.7");
+  // With its error, and as many digits as that leaves.
+  BOOST_TEST(KeyPath(flow_key, physical, 0.123456789).fold_text(1, 2e-8) ==
+             "flow.capillary_number = 0.12345679 +- 2e-08 (24.69 nl/s), the critical flow rate");
+  BOOST_TEST(KeyPath("capsule.radius", some_case(), 0.7).fold_text(1, 0) == "capsule.radius = 0.7 +- 0");
 }
 
 // Between positive values the eighth root is a straight line; with a negative end the value is one.
