@@ -7,7 +7,8 @@
 source = ARG1
 out = ARG2
 case = source[strstrt(source, "/") + 1:]
-pictures = out."/".case
+home = out."/".case
+pictures = home."/.drawing" # until all are drawn: a script that fails leaves the old ones
 
 # A text as one word of the shell: a run may be called like any case that it is of.
 quoted(text) = "'".without_apostrophe(text)."'"
@@ -119,7 +120,8 @@ defaults = "set encoding utf8; set datafile separator ','; set datafile columnhe
 # Markdown, too. Tables of a case that the paper's values speak of lie beside the figures, in the directory tables; those of
 # another, perhaps its copy, with its pictures.
 of_the_paper = int(system("cut -d, -f3 tables/published.csv | grep -cxF -e ".quoted(case)))
-tables = of_the_paper > 0 ? out."/../tables" : pictures
+home_of_tables = of_the_paper > 0 ? out."/../tables" : home
+tables = pictures."/tables"
 table(name) = sprintf("set print tables.'/%s.csv'", name)
 end_table(name) = sprintf("set print; end_table_ = system(as_markdown(tables.'/%s'))", name)
 as_markdown(file) = "sed 's/,/ | /g; s/^/| /; s/$/ |/; ".plain_numbers."; 1{p; s/[^|]\\+/ --- /g}' ".quoted(file.".csv")." > ".quoted(file.".md")
@@ -155,17 +157,21 @@ both_walls = "sample [t=-3:second_mouth + 3] '+' using (t < second_mouth ? wall_
 view(left, right, bottom, top) = sprintf("set size ratio -1; set xrange [%g:%g]; set yrange [%g:%g]; ", \
   left, right, bottom, top)."set xlabel x_label; set ylabel r_label"
 
-system("mkdir -p ".quoted(pictures)." ".quoted(tables)." && cd ".quoted(pictures)." && rm -f *.svg *.png *.md")
+system("rm -rf ".quoted(pictures)."; mkdir -p ".quoted(tables)." ".quoted(home_of_tables))
 do for [format in "svg png"] {
   reset; eval defaults
   load source."/figure.gp"
   unset output
 }
-captions = quoted(pictures)."/*.md"
+set print
+moved(from, to) = "find ".quoted(from)." -maxdepth 1 -type f -exec mv {} ".quoted(to)." ';'"
+system("(cd ".quoted(home)." && rm -f *.svg *.png *.md) && ".moved(pictures, home)." && ".moved(tables, home_of_tables). \
+  " && rm -r ".quoted(pictures))
+captions = quoted(home)."/*.md"
 rewritten = system("for file in ".captions."; do [ ! -e \"$file\" ] || sed -i '".plain_numbers."' \"$file\"; done")
 # A caption with a number that is not there, or that begins with one.
 set print "-"
 numbered = system("grep -lE -- '^(\\*\\*)?[-−0-9]' ".captions)
 if (numbered ne "") { print "warning: a caption begins with a number in ".numbered }
-incomplete = system("grep -lwiE -- '-?nan' ".quoted(pictures)."/*.md")
+incomplete = system("grep -lwiE -- '-?nan' ".captions)
 if (incomplete ne "") { print "warning: a number is missing in ".incomplete }

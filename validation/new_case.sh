@@ -44,4 +44,17 @@ grep -q '^paper' cases/my-case/case.toml && fail 'the copy is of an item of the 
 grep -q 'λ = 0.5' figures/my-case/fig07a.md || fail 'the captions do not speak of the runs'
 grep -i -E '(^|[^a-z])-?nan' figures/my-case/*.md figures/my-case/*.svg tables/*.md && fail 'a number is missing'
 [ ! -e figures/deleted-case ] || fail 'the pictures of a case that is no longer there stay'
+
+# A mistake in a figure.gp leaves the pictures that were there; without it they are drawn anew, and nothing else is left.
+pictures() { (cd figures/my-case && find . -type f -name '*.*g' | sort && cat ./*.md); }
+pictures >before
+echo 'plot (' >>cases/my-case/figure.gp
+LC_ALL=C cmake --build build --target figure-my-case >log 2>&1 && fail 'a mistake in figure.gp is not noticed'
+pictures | grep -v drawing >after
+cmp before after || fail 'a mistake in figure.gp takes the pictures away'
+sed -i '$d' cases/my-case/figure.gp
+: >figures/my-case/fig99.svg
+LC_ALL=C cmake --build build --target figure-my-case >log 2>&1 || fail 'it is not drawn again'
+pictures >after
+cmp before after && [ ! -e figures/my-case/.drawing ] || fail 'other pictures than before'
 echo "a new case is computed and drawn"
