@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <string_view>
+#include <utility>
 
 namespace capsule {
 namespace {
@@ -18,6 +19,7 @@ constexpr const char *how_to_save = "save it as CSV in UTF-8 with commas between
 struct Parsed {
   std::vector<CsvRow> rows;   // blank ones, too
   std::size_t open_quote = 0; // the line of a quote that is not closed; 0: none
+  std::size_t opened_at = 0;  // its place in the text
 };
 
 // `comment`: what a line begins with that is one field; 0: none.
@@ -51,6 +53,7 @@ Parsed parse(std::string_view text, char comment = '\0') {
     else if (c == '"' && trimmed(fields.back()).empty()) {
       fields.back().clear();
       parsed.open_quote = line;
+      parsed.opened_at = i;
     } else
       fields.back() += c;
   }
@@ -93,19 +96,33 @@ std::vector<CsvRow> read_csv(const fs::path &file) {
 }
 
 std::vector<CsvRow> read_csv(const fs::path &file, char comment) {
+  std::string mistakes;
+  std::vector<CsvRow> rows = read_csv(file, comment, mistakes);
+  if (!mistakes.empty())
+    throw InputError(mistakes);
+  return rows;
+}
+
+std::vector<CsvRow> read_csv(const fs::path &file, char comment, std::string &mistakes) {
   std::string text = read_file(file);
-  const auto refuse = [&](std::size_t line, const std::string &message) {
-    throw InputError(csv_error(file, line, message) + how_to_save + '\n');
+  const auto mistake = [&](std::size_t line, const std::string &message) {
+    return csv_error(file, line, message) + how_to_save + '\n';
   };
   if (const auto error = encoding_error(text)) {
     const std::string_view before = std::string_view(text).substr(0, error->byte);
-    refuse(1 + static_cast<std::size_t>(std::ranges::count(before, '\n')), error->message);
+    throw InputError(mistake(1 + static_cast<std::size_t>(std::ranges::count(before, '\n')), error->message));
   }
   if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; text.starts_with(byte_order_mark))
     text.erase(0, byte_order_mark.size());
-  auto [rows, open_quote] = parse(text, comment);
-  if (open_quote > 0)
-    refuse(open_quote, "this quote is not closed");
+  Parsed parsed = parse(text, comment);
+  for (; parsed.open_quote > 0; parsed = parse(text, comment)) {
+    mistakes += mistake(parsed.open_quote, "this quote is not closed");
+    constexpr const char *line_ends = "\r\n";
+    const std::size_t before = text.find_last_of(line_ends, parsed.opened_at);
+    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+    text.erase(begin, std::min(text.find_first_of(line_ends, begin), text.size()) - begin);
+  }
+  std::vector<CsvRow> rows = std::move(parsed.rows);
   std::erase_if(rows, is_blank);
   const auto names = std::ranges::find_if(rows, [&](const CsvRow &row) {
     return comment == '\0' || !trimmed(row.fields[0]).starts_with(comment);
@@ -113,7 +130,7 @@ std::vector<CsvRow> read_csv(const fs::path &file, char comment) {
   if (names == rows.end())
     return rows;
   if (has_other_separators(*names))
-    refuse(names->line, "semicolons or tabs stand between the fields");
+    throw InputError(mistake(names->line, "semicolons or tabs stand between the fields"));
   drop_empty_end(*names, 1);
   for (CsvRow &row : rows)
     drop_empty_end(row, names->fields.size());

@@ -46,6 +46,14 @@ constexpr std::array kinds{"number", "bound", "ratio", "order", "behaviour", "pi
 constexpr std::array verdicts{"agrees", "differs", "not decidable"};
 constexpr std::array causes{"", "mesh"};
 
+std::vector<std::string> texts_of_expressions(const Expectation &row) {
+  std::vector<std::string> texts;
+  for (const std::string &text : {row.quantity, row.converged})
+    if (!text.empty() && text != "status")
+      texts.push_back(text);
+  return texts;
+}
+
 // Reads the published value and the allowed distance. Returns what is wrong with them, or nothing.
 std::string read_numbers(Expectation &row) {
   using Form = Expectation::Form;
@@ -95,26 +103,35 @@ std::string read_verdict(Expectation &row) {
   return "";
 }
 
-// Throws InputError if the row's selector or one of its expressions cannot be read.
-void check_expressions(const Expectation &row) {
-  const Selector selector(row.run);
-  for (const Expression &expression : expressions_of(row))
-    for (const Reference &reference : expression.references()) {
-      check_units(reference);
-      if (reference.runs)
-        const Selector other(runs_of(reference));
+// What is wrong with the row's selector and each of its expressions.
+std::vector<std::string> mistakes_of_expressions(const Expectation &row) {
+  std::vector<std::string> mistakes;
+  const auto check = [&](const auto &read) {
+    try {
+      read();
+    } catch (const InputError &error) {
+      mistakes.emplace_back(error.what());
     }
+  };
+  check([&] { const Selector selector(row.run); });
+  for (const std::string &text : texts_of_expressions(row))
+    check([&] {
+      for (const Reference &reference : Expression(text).references()) {
+        check([&] { check_units(reference); });
+        if (reference.runs)
+          check([&] { const Selector other(runs_of(reference)); });
+      }
+    });
+  return mistakes;
 }
 
-// Completes a row from its columns. Returns the first mistake in it, or nothing.
-std::string complete(Expectation &row) {
-  try {
-    check_expressions(row);
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  const std::string mistake = read_verdict(row);
-  return mistake.empty() ? read_numbers(row) : mistake;
+// Completes a row from its columns. Returns all mistakes in it.
+std::vector<std::string> complete(Expectation &row) {
+  std::vector<std::string> mistakes = mistakes_of_expressions(row);
+  for (std::string (*read)(Expectation &) : {read_verdict, read_numbers})
+    if (std::string mistake = read(row); !mistake.empty())
+      mistakes.push_back(std::move(mistake));
+  return mistakes;
 }
 
 std::vector<std::string> trimmed_fields(const CsvRow &row) {
@@ -126,9 +143,9 @@ std::vector<std::string> trimmed_fields(const CsvRow &row) {
 // The rows of a file with these columns. What has no column is as in `blank`.
 std::vector<Expectation> read_table(const fs::path &table, std::span<const Column> columns,
                                     const Expectation &blank) {
-  std::vector<CsvRow> lines = read_csv(table, '#');
-  std::erase_if(lines, [](const CsvRow &row) { return trimmed(row.fields.at(0)).starts_with("#"); });
   std::string errors;
+  std::vector<CsvRow> lines = read_csv(table, '#', errors);
+  std::erase_if(lines, [](const CsvRow &row) { return trimmed(row.fields.at(0)).starts_with("#"); });
   const auto complain = [&](std::size_t line, const std::string &message) {
     errors += csv_error(table, line, message);
   };
@@ -148,7 +165,7 @@ std::vector<Expectation> read_table(const fs::path &table, std::span<const Colum
     Expectation row = blank;
     for (std::size_t k = 0; k < columns.size(); ++k)
       row.*columns[k].entry = fields[k];
-    if (const std::string mistake = complete(row); !mistake.empty())
+    for (const std::string &mistake : complete(row))
       complain(line, mistake);
     if (std::ranges::find(rows, row.id, &Expectation::id) != rows.end())
       complain(line, fmt::format("the id '{}' is there already", row.id));
@@ -210,9 +227,8 @@ std::vector<std::string> referenced_cases(const std::vector<Expectation> &expect
 
 std::vector<Expression> expressions_of(const Expectation &row) {
   std::vector<Expression> expressions;
-  for (const std::string &text : {row.quantity, row.converged})
-    if (!text.empty() && text != "status")
-      expressions.emplace_back(text);
+  for (const std::string &text : texts_of_expressions(row))
+    expressions.emplace_back(text);
   return expressions;
 }
 

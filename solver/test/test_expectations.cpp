@@ -59,6 +59,15 @@ BOOST_AUTO_TEST_CASE(mistakes_of_the_table) {
                  "the cause 'reading' is neither");
   check_contains(mistake_in(header + row + "A,number,,,agrees,mesh,\n"), "the verdict 'agrees' has no cause");
   check_contains(mistake_in(header + row + "A,size,,,agrees,,\n"), "the kind 'size' is none of");
+  // All mistakes of a row, and of the rows around one with an open quote.
+  const std::string row_of_mistakes = mistake("a,T,x,size=1,v_g [foo] + v_g{all},high,0,");
+  for (const char *part : {"unknown key 'size'", "v_g [foo]", "the run 'all'", "the value 'high'"})
+    check_contains(row_of_mistakes, part);
+  const std::string quotes = mistake_in(header + plain("a,T,x,,v_g,low,1 %,") +
+                                        plain("b,T,x,,v_g,1,1 %,\"why") + plain("c,T,x,,v_g,high,1 %,"));
+  for (const char *part :
+       {":2:1: error: the value 'low'", ":3:1: error: this quote is not", ":4:1: error: the value 'high'"})
+    check_contains(quotes, part);
   const std::string all = mistake_in("id\nb\n" + plain("a,T,x,,v_g,high,1 %,") + plain("a,T,fig,,v_g,1,0,"));
   for (const char *place : {":1:1: error: ", ":2:1: error: ", ":3:1: error: ", ":4:1: error: "})
     check_contains(all, place);
