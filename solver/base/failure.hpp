@@ -1,5 +1,6 @@
 #pragma once
 // Failures. Each says what happened, where, and what to try.
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -28,6 +29,7 @@ inline constexpr const char *touching = "touching", *self_contact = "self-contac
 struct NumericsFailure : std::runtime_error {
   std::string kind;
   std::string advice;
+  std::size_t capsule = 0; // of several, that it is about; the leading one if it is about none
   NumericsFailure(std::string kind_, const std::string &what, std::string advice_)
       : std::runtime_error(what), kind(std::move(kind_)), advice(std::move(advice_)) {}
 };

@@ -88,8 +88,10 @@ void complain_unknown(CaseReader &reader, const TextPlace &place, const std::str
   const bool below_section = reader.text.text_at(place).starts_with(last_component(name));
   const std::string shown = same_section && below_section ? std::string(last_component(near)) : near;
   reader.meant.push_back(near);
+  const char *part = name.ends_with("diameter") && near.ends_with("radius") ? ", half of it" : "";
   reader.complain(place, fmt::format("unknown key '{}'{}", name, sweep ? " in sweep" : ""),
-                  near.empty() ? "`capsule keys` lists them all" : fmt::format("did you mean '{}'?", shown));
+                  near.empty() ? "`capsule keys` lists them all"
+                               : fmt::format("did you mean '{}'{}?", shown, part));
 }
 
 // What this key has for each capsule, or the only value.

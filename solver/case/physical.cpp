@@ -1,6 +1,7 @@
 #include "case/physical.hpp"
 #include "base/text.hpp"
 #include "case/empty_pore.hpp"
+#include "case/keys.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -172,14 +173,44 @@ TypedUnit own_unit(const Case &physics, const Dimension &of) {
   return {unit_text(of), 1};
 }
 
-std::string flow_rate_text(const Case &physics, double capillary_number) {
+std::vector<Physical> physical_of(const Case &physics, const std::string &key, double value) {
   const auto &p = physics.physical;
-  const double shear = shear_modulus(physics);
+  const double shear = shear_modulus(physics), radius = p.tube_radius.si;
+  std::vector<Physical> all;
   if (shear == 0)
-    return "";
-  const double si = capillary_number * pi * p.tube_radius.si * p.tube_radius.si * shear / p.viscosity.si;
-  const TypedUnit unit = own_unit(physics, dimension::flow_rate);
-  return fmt::format("{:.4g} {}", si / unit.si, unit.name);
+    return all;
+  const auto add = [&](const char *name, double si, const Dimension &of, const TypedUnit &unit) {
+    all.push_back({name, si, of, fmt::format("{:.4g} {}", si / unit.si, unit.name)});
+  };
+  if (key == flow_key) {
+    const double rate = value * pi * radius * radius * shear / p.viscosity.si;
+    add("physical.flow_rate", rate, dimension::flow_rate, own_unit(physics, dimension::flow_rate));
+    if (p.pressure.si > 0)
+      add("physical.pressure", p.pressure.si * rate / flow_rate(physics), dimension::pressure,
+          own_unit(physics, dimension::pressure));
+  } else if (key == "capsule.radius")
+    add("physical.capsule_radius", value * radius, dimension::length,
+        p.capsule_radius.si > 0 ? typed_unit(p.capsule_radius, dimension::length)
+                                : own_unit(physics, dimension::length));
+  else if (key == bending_key)
+    add("physical.bending_modulus", value * shear * radius * radius, dimension::energy,
+        typed_unit(p.bending_modulus, dimension::energy));
+  return all;
+}
+
+std::string flow_rate_text(const Case &physics, double capillary_number) {
+  const std::vector<Physical> all = physical_of(physics, flow_key, capillary_number);
+  return all.empty() ? "" : all.front().text;
+}
+
+std::string with_physical_keys(std::string advice, const Case &physics) {
+  if (!has_physical(physics))
+    return advice;
+  for (const Derived &derived : derived_values(physics))
+    for (std::size_t at = advice.find(derived.key); at != std::string::npos;
+         at = advice.find(derived.key, at + derived.from.size()))
+      advice.replace(at, derived.key.size(), derived.from);
+  return advice;
 }
 
 double reynolds_number(const Case &physics) {

@@ -27,6 +27,8 @@ struct PhysicalComplaint {
 };
 // To a fit of profiles the modulus is unknown, and the flow rate may be.
 std::vector<PhysicalComplaint> physical_complaints(const Case &physics, bool of_a_fit = false);
+// Advice that names dimensionless keys: those that the case gives in physical units are named as they are given.
+std::string with_physical_keys(std::string advice, const Case &physics);
 // What follows from the physical keys of a case; where there are complaints, only which keys have a value. With a given
 // pressure the flow rate is that of the empty pore (empty_pore.hpp). If the pressure stays constant, or the pore has two
 // mouths, its length is pore.exit_x.
@@ -37,6 +39,16 @@ double driven_tube_length(const Case &physics);
 // The unit in which a case is told of results: that in which it gives its own flow rate, pressure and modulus, and the
 // length and velocity that go with its tube's radius; of everything else the SI unit.
 TypedUnit own_unit(const Case &physics, const Dimension &of);
+// What a value of a dimensionless key is in physical units: the quantities that the case gives it by, or may.
+struct Physical {
+  std::string key; // "physical.capsule_radius"
+  double si = 0;
+  Dimension dimension;
+  std::string text; // in the unit in which the case gives it: "4 um"
+};
+// Of the capillary number a flow rate and, if the case gives one, a pressure; of the radius and the bending stiffness. None
+// where the modulus is unknown: without physical units, and in a fit.
+std::vector<Physical> physical_of(const Case &physics, const std::string &key, double value);
 // The flow rate at any capillary number, in the unit in which the case gives its own: "0.253 nl/s". Empty where the modulus
 // is unknown: without physical units, and in a fit.
 std::string flow_rate_text(const Case &physics, double capillary_number);

@@ -70,7 +70,11 @@ const Key *key_named(const std::string &name) {
   return found == keys().end() ? nullptr : &*found;
 }
 
-std::string nearest_key(const std::string &name) {
+std::string nearest_key(const std::string &typed) {
+  constexpr std::string_view diameter = "diameter"; // there are radii only
+  std::string name = typed;
+  if (const std::size_t at = name.rfind(diameter); at != std::string::npos)
+    name.replace(at, diameter.size(), "radius");
   const std::string word(last_component(name)), section = section_of(name);
   std::vector<std::string> all, last, here;
   for (const Key &key : keys()) {

@@ -7,7 +7,8 @@ namespace capsule {
 namespace {
 
 std::string status_of(const Summary &summary) {
-  return summary.status + (summary.failure.empty() ? "" : ":" + summary.failure);
+  const std::string reason = summary.reason();
+  return summary.status + (reason.empty() ? "" : ":" + reason);
 }
 
 // Compares what one row says with runs.

@@ -2,6 +2,7 @@
 #include "base/decompositions.hpp"
 #include "base/failure.hpp"
 #include "case/case.hpp"
+#include "case/physical.hpp"
 #include "geometry/gap.hpp"
 #include "motion/dynamics.hpp"
 #include "motion/split_bdf.hpp"
@@ -73,11 +74,11 @@ public:
                        : failure.kind == failure_kind::burst   ? Status::burst
                                                                : Status::failed;
       const std::vector<SeriesRow> &series =
-          judged_ == 0 ? record_.series : record_.followers[judged_ - 1].series;
+          failure.capsule == 0 ? record_.series : record_.followers[failure.capsule - 1].series;
       const SeriesRow last = series.empty() ? SeriesRow{} : series.back();
       outcome.failure = failure.kind;
       outcome.message = fmt::format("{} (after t = {:.6g}, x_g = {:.6g}); {}", failure.what(), last.time,
-                                    last.x_g, failure.advice);
+                                    last.x_g, with_physical_keys(failure.advice, input_));
     }
     if (outcome.status != Status::interrupted) {
       record_.steps = steps_;
@@ -141,10 +142,10 @@ private:
           require_stable_step(record_.position);
         integrator.step();
       });
-    } catch (const NumericsFailure &failure) {
+    } catch (NumericsFailure &failure) {
       require_stable_step(last_accepted_);
-      throw NumericsFailure(failure.kind, failure.what(),
-                            failure.advice + "; a shorter time.step may help, too");
+      failure.advice += "; a shorter time.step may help, too";
+      throw;
     }
   }
 
@@ -219,9 +220,11 @@ private:
   }
 
   void check_film() {
-    SeriesRow here; // only the film is measured between rows
-    here.min_film = smallest_film(record_.position);
-    throw_if_stopped({.row = here});
+    for_each_capsule(*dynamics_.scene, [&](std::size_t k) {
+      SeriesRow here; // only the film is measured between rows
+      here.min_film = gauges_[k].film(part(record_.position, k));
+      throw_if_stopped({.row = here});
+    });
   }
 
   void check_gain() {
@@ -373,7 +376,6 @@ private:
       control_.progress(rows[0], steps_);
     for_each_capsule(*dynamics_.scene, [&](std::size_t k) {
       const Vector here = part(position, k);
-      judged_ = k;
       throw_if_stopped({.row = rows[k],
                         .crosses_itself = gauges_[k].crosses_itself(here),
                         .roughness_limit = roughness_limit_,
@@ -381,7 +383,6 @@ private:
                         .softest = softest_if_elastic(capsules_of(input_)[k]->membrane,
                                                       dynamics_.scene->membrane_of(k), here)});
     });
-    judged_ = 0;
     last_accepted_ = position;
   }
 
@@ -414,9 +415,8 @@ private:
   std::vector<std::vector<Eigen::Index>> rows_; // of each capsule in a position
   std::vector<Gauge> gauges_;
   Checkpoint record_;
-  long steps_;             // with those since the last checkpoint
-  std::size_t judged_ = 0; // the capsule whose row may stop the march; the leading one otherwise
-  Vector last_accepted_;   // position of the last row at which nothing stopped the march
+  long steps_;           // with those since the last checkpoint
+  Vector last_accepted_; // position of the last row at which nothing stopped the march
   std::vector<Station> x_g_stations_, time_stations_;
 };
 

@@ -28,6 +28,9 @@ struct Summary {
   std::map<std::string, double> error_estimate;
   std::string along = {}; // of a branch: the key that varies
   std::vector<FoldPlace> folds = {};
+
+  // The failure, unless it is what the status says.
+  std::string reason() const { return failure == status ? "" : failure; }
 };
 // Throws FileError.
 Summary read_summary(const std::filesystem::path &directory);

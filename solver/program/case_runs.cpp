@@ -334,7 +334,8 @@ RunState state_of(const RunInput &run, const RunOptions &options) {
   const std::string identity = run_identity(run.physics, options.task);
   if (is_there(run, options)) {
     const Summary summary = read_summary(home);
-    const std::string ending = summary.status + (summary.failure.empty() ? "" : ": " + summary.failure);
+    const std::string reason = summary.reason();
+    const std::string ending = summary.status + (reason.empty() ? "" : ": " + reason);
     return {true, ending, 1, summary.quantities.at("cpu_seconds")};
   }
   const auto saved = read_checkpoint(home, identity).run;

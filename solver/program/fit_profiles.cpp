@@ -97,7 +97,7 @@ bool fit_and_write(const Case &physics, const Job &job, FitStarts &starts,
   try {
     outcome.result = fit_contours(physics, job.contours, starts, control);
   } catch (const NumericsFailure &failure) {
-    outcome.failure = fmt::format("{}; {}", failure.what(), failure.advice);
+    outcome.failure = fmt::format("{}; {}", failure.what(), with_physical_keys(failure.advice, physics));
   } catch (const Interrupted &) {
     return true;
   }

@@ -3,6 +3,7 @@
 #include "base/text.hpp"
 #include "case/case.hpp"
 #include "case/keys.hpp"
+#include "case/physical.hpp"
 #include "motion/stops.hpp"
 #include "observe/outcome.hpp"
 #include <algorithm>
@@ -62,7 +63,7 @@ std::string unsteady_remark(const std::vector<RunResult> &results) {
     ++unsteady;
     fastest = std::max(fastest, moving);
     if (later.empty())
-      later = what_ended(input.physics.until, summary->quantities);
+      later = with_physical_keys(what_ended(input.physics.until, summary->quantities), input.physics);
     is_of_one = is_of_one && input.physics.followers.empty();
   }
   if (unsteady == 0)
@@ -94,8 +95,9 @@ std::string outlet_remark(const std::vector<RunResult> &results) {
     return "";
   return fmt::format(
       "the two routes to the pressure drop differ by {:.0f} %{}, of which the estimate says nothing: the "
-      "end of the pore may be too near; a larger pore.exit_x moves it away",
-      100 * largest, of_runs(" or less in ", runs, results));
+      "end of the pore may be too near; a larger {} moves it away",
+      100 * largest, of_runs(" or less in ", runs, results),
+      with_physical_keys("pore.exit_x", results.front().input.physics));
 }
 
 std::string wrinkle_remark(const std::vector<RunResult> &results) {
@@ -125,7 +127,7 @@ std::string wrinkle_remark(const std::vector<RunResult> &results) {
       of_runs(" in ", runs, results), most,
       from < to ? fmt::format("between x_g = {:.4g} and {:.4g}", from, to)
                 : fmt::format("at x_g = {:.4g}", from),
-      bending_key,
+      with_physical_keys(bending_key, results.front().input.physics),
       estimated ? "; small disturbances decide when it wrinkles, and errors there may exceed their estimates"
                 : "");
 }

@@ -4,6 +4,7 @@
 #include "case/physical.hpp"
 #include "observe/outcome.hpp"
 #include "observe/unit_of.hpp"
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 #include <vector>
@@ -33,8 +34,8 @@ std::vector<std::pair<std::string, std::string>> told_quantities(const RunResult
 // Whether it ends the steady states of a flow that grows: the last fold, behind which the membrane runs away.
 bool is_critical(const FoldPlace &fold, const RunResult &result) {
   const Summary &summary = *result.summary;
-  return summary.status == word_of(Status::unbounded) && fold.value == summary.folds.back().value &&
-         fold.value > result.input.physics.flow.capillary_number;
+  return summary.along == flow_key && summary.status == word_of(Status::unbounded) &&
+         fold.value == summary.folds.back().value && fold.value > result.input.physics.flow.capillary_number;
 }
 
 std::string in_own_units(const RunResult &result) {
@@ -43,11 +44,20 @@ std::string in_own_units(const RunResult &result) {
   if (!has_physical(physics))
     return "";
   if (!summary.along.empty()) { // along most keys the scales change
-    std::string folds;
-    for (const FoldPlace &fold : summary.along == flow_key ? summary.folds : std::vector<FoldPlace>())
-      folds += fmt::format("\n  fold at a flow rate of {}{}", flow_rate_text(physics, fold.value),
-                           is_critical(fold, result) ? ", the critical flow rate" : "");
-    return folds;
+    std::string places;
+    const auto tell = [&](const char *what, double value, bool critical) {
+      for (const Physical &physical : physical_of(physics, summary.along, value)) {
+        std::string name(last_component(physical.key));
+        std::ranges::replace(name, '_', ' ');
+        places += fmt::format("\n  {} at a {} of {}{}", what, name, physical.text,
+                              critical ? ", the critical " + name : "");
+      }
+    };
+    for (const FoldPlace &fold : summary.folds)
+      tell("fold", fold.value, is_critical(fold, result));
+    if (const auto end = summary.quantities.find("time"); end != summary.quantities.end())
+      tell("end", end->second, false);
+    return places;
   }
   const Scales scales = physical_scales(physics);
   std::string text;
@@ -67,8 +77,8 @@ std::string in_own_units(const RunResult &result) {
 std::string run_line(const RunResult &result, const std::string &name, bool computed_before) {
   const Summary &summary = *result.summary;
   std::string text = fmt::format("{}: {}", name, summary.status);
-  if (!summary.failure.empty())
-    text += fmt::format(" ({})", summary.failure);
+  if (const std::string reason = summary.reason(); !reason.empty())
+    text += fmt::format(" ({})", reason);
   const auto add = [&](const std::string &label, const std::string &quantity, int digits = 6) {
     if (const auto value = summary.quantities.find(quantity); value != summary.quantities.end())
       text += fmt::format("  {} {:.{}g}", label, value->second, digits);

@@ -64,8 +64,10 @@ void for_each_capsule(const Scene &scene, const Function &function) {
     } catch (const NumericsFailure &failure) {
       if (scene.capsules() == 1)
         throw;
-      throw NumericsFailure(failure.kind, fmt::format("capsule {}: {}", k + 1, failure.what()),
+      NumericsFailure named(failure.kind, fmt::format("capsule {}: {}", k + 1, failure.what()),
                             failure.advice);
+      named.capsule = k;
+      throw named;
     }
 }
 

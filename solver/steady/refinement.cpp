@@ -1,4 +1,5 @@
 #include "steady/refinement.hpp"
+#include "case/physical.hpp"
 #include "observe/quantities.hpp"
 #include "steady/growth_rates.hpp"
 #include "steady/work.hpp"
@@ -128,7 +129,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
     }
     estimate_errors(refined, row, coarser, coarse);
     if (!given && !agree(row, coarse.back(), input.accuracy))
-      refined.warning = poorly_resolved(nodes);
+      refined.warning = with_physical_keys(poorly_resolved(nodes), input);
     return refined;
   }
   for (;;) {
@@ -144,7 +145,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
       continue;
     estimate_errors(refined, row, coarser, {before});
     if (!enough)
-      refined.warning = poorly_resolved(nodes);
+      refined.warning = with_physical_keys(poorly_resolved(nodes), input);
     return refined;
   }
 }

@@ -1,5 +1,6 @@
 #include "steady/steady_state.hpp"
 #include "base/failure.hpp"
+#include "case/physical.hpp"
 #include "scene/scene.hpp"
 #include "steady/from_profile.hpp"
 #include "steady/refinement.hpp"
@@ -35,7 +36,7 @@ Outcome steady(const Case &input, const std::optional<Profile> &from, const Cont
   } catch (const NumericsFailure &failure) {
     outcome.status = Status::failed;
     outcome.failure = failure.kind;
-    outcome.message = fmt::format("{}; {}", failure.what(), failure.advice);
+    outcome.message = fmt::format("{}; {}", failure.what(), with_physical_keys(failure.advice, input));
   } catch (const Interrupted &) {
     outcome.status = Status::interrupted;
   }

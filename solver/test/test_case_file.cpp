@@ -445,6 +445,14 @@ BOOST_AUTO_TEST_CASE(symbols_of_the_field) {
     const std::string message = message_of(directory.write("case.toml", sphere), {std::string(typed) + "=1"});
     check_contains(message, fmt::format("did you mean '{}'?", meant));
   }
+  // There are radii only.
+  for (const auto &[typed, meant] :
+       std::map<std::string, std::string>{{"physical.tube_diameter", "physical.tube_radius"},
+                                          {"capsule_diameter", "physical.capsule_radius"},
+                                          {"capsule.diameter", "capsule.radius"}})
+    check_contains(message_of(directory.write("case.toml", sphere), {typed + "=1"}),
+                   fmt::format("did you mean '{}', half of it?", meant));
+  BOOST_TEST(nearest_key("tube_diameter") == "physical.tube_radius");
   // No letter is near to another one.
   for (const char *typed : {"membrane.Z", "membrane.x", "q_q", "rho", "a", "g", "membrane.c"})
     check_contains(message_of(directory.write("case.toml", sphere), {std::string(typed) + "=1"}),

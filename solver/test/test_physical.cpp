@@ -2,6 +2,7 @@
 #include "base/failure.hpp"
 #include "case/case_file.hpp"
 #include "case/identity.hpp"
+#include "case/key_path.hpp"
 #include "case/physical.hpp"
 #include "temporary_directory.hpp"
 #include <array>
@@ -153,6 +154,36 @@ BOOST_AUTO_TEST_CASE(the_flow_rate_at_a_capillary_number) {
 }
 
 // rho/(pi R_t), of a pore radius of empty tube.
+// What is derived from it, and back, in the unit in which the case has it.
+BOOST_AUTO_TEST_CASE(quantities_of_a_dimensionless_key) {
+  const Case physics = only_run(laboratory);
+  const auto check = [&](const Case &input, const char *key, const char *name, double si, const char *text) {
+    const std::vector<Physical> all = physical_of(input, key, 2 * number(key, input));
+    BOOST_REQUIRE(!all.empty());
+    BOOST_TEST(all.back().key == name);
+    BOOST_TEST(all.back().si == 2 * si, tolerance);
+    BOOST_TEST(all.back().text == text);
+  };
+  check(physics, "flow.capillary_number", "physical.flow_rate", 1e-13, "0.2 nl/s");
+  check(physics, "capsule.radius", "physical.capsule_radius", 4e-6, "8 um");
+  check(physics, "membrane.bending_ratio", "physical.bending_modulus", 5e-15, "10 fJ");
+  BOOST_TEST(physical_of(physics, "flow.viscosity_ratio", 1).empty());
+  const Case driven = only_run(
+      replaced(laboratory, "flow_rate = \"0.1 nl/s\"", "pressure = \"20 Pa\"\npore_length = \"100 um\""));
+  check(driven, "flow.capillary_number", "physical.pressure", 20, "40 Pa");
+}
+
+// Advice names what stands in the case.
+BOOST_AUTO_TEST_CASE(advice_names_the_keys_of_the_case) {
+  const std::string advice =
+      "a larger membrane.bending_ratio, a smaller flow.capillary_number or capsule.radius";
+  BOOST_TEST(with_physical_keys(advice, only_run(laboratory)) ==
+             "a larger physical.bending_modulus, a smaller physical.flow_rate or physical.capsule_radius");
+  BOOST_TEST(with_physical_keys(advice, only_run(replaced(laboratory, "bending_modulus = \"5 fJ\"\n", ""))) ==
+             "a larger membrane.bending_ratio, a smaller physical.flow_rate or physical.capsule_radius");
+  BOOST_TEST(with_physical_keys(advice, Case{}) == advice);
+}
+
 BOOST_AUTO_TEST_CASE(the_liquid_s_resistivity_is_the_scale_of_resistances) {
   BOOST_TEST(physical_scales(only_run(laboratory)).resistance == 0); // unknown
   const std::string conducting = "output.resistance = true\n" + laboratory;

@@ -80,6 +80,16 @@ BOOST_AUTO_TEST_CASE(wrinkles_on_the_way_are_remarked) {
   BOOST_TEST(wrinkle_remark({result}) == ""); // no series
   std::ofstream(directory.path / "series.csv") << "x_g,dents\n1.5,2\n1.55,3\n2,4\n2.05,2\n";
   BOOST_TEST(wrinkle_remark({result}).find("up to 4 dents between x_g = 1.55 and 2;") != std::string::npos);
+  RunResult physical = result; // its key is named as the case has it
+  physical.input.physics.physical.tube_radius = {5e-6};
+  physical.input.physics.physical.viscosity = {1e-3};
+  physical.input.physics.physical.shear_modulus = {1e-5};
+  physical.input.physics.physical.flow_rate = {1e-13};
+  physical.input.physics.physical.bending_modulus = {1e-15};
+  BOOST_TEST(wrinkle_remark({result}).find("a larger membrane.bending_ratio smooths it") !=
+             std::string::npos);
+  BOOST_TEST(wrinkle_remark({physical}).find("a larger physical.bending_modulus smooths it") !=
+             std::string::npos);
   BOOST_TEST(wrinkle_remark({result, {{}, "", Summary{}}}).find("in 1 of 2 runs") != std::string::npos);
   BOOST_TEST(wrinkle_remark({result}).find("estimates") == std::string::npos); // there are none
   result.summary->error_estimate = {{"v_g", 1e-4}};

@@ -335,6 +335,12 @@ BOOST_AUTO_TEST_CASE(what_belongs_to_the_pore_is_null_without_one) {
   BOOST_TEST(summary.quantities.count("deformation") == 1u);
 }
 
+// What a status says is not said twice.
+BOOST_AUTO_TEST_CASE(the_reason_of_an_end) {
+  BOOST_TEST((Summary{"failed", "fold", "", {}, {}}.reason()) == "fold");
+  BOOST_TEST((Summary{"unbounded", "unbounded", "", {}, {}}.reason()) == "");
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_failed_at_once) {
   const TemporaryDirectory directory;
   Outcome outcome;

@@ -169,6 +169,23 @@ BOOST_AUTO_TEST_CASE(touching) {
   }
 }
 
+// So is the capsule that comes to the wall.
+BOOST_AUTO_TEST_CASE(touching_the_wall) {
+  const Dynamics pair = make_dynamics(in_a_tube(neo_hookean, 0.7, {2, -2}));
+  Vector position = pair.scene->start;
+  const std::vector<Eigen::Index> rows = rows_of_capsules(*pair.scene).at(1);
+  for (std::size_t i = rows.size() / 2; i < rows.size(); ++i)
+    position[rows[i]] *= 1.5;
+  try {
+    pair.flow(position);
+    BOOST_ERROR("a capsule in the wall has a flow");
+  } catch (const NumericsFailure &failure) {
+    BOOST_TEST(failure.kind == failure_kind::touching);
+    BOOST_TEST(failure.capsule == 1u);
+    BOOST_TEST(std::string(failure.what()) == "capsule 2: the membrane touches the wall");
+  }
+}
+
 // The softer one behind bursts, and the message says where it is.
 BOOST_AUTO_TEST_CASE(the_capsule_that_bursts_tells_its_place) {
   Case physics = with(in_a_tube(neo_hookean, 0.6, {1, -1}), [](Case &c) {
