@@ -105,6 +105,15 @@ grep -q 'fold at a flow rate of .* nl/s, the critical flow rate' log || fail 'th
 near "$(sed -n 's/.*fold at a flow rate of \(.*\) nl\/s.*/\1/p' log | awk '{ print $1 / 100 }')" "$fold" 1e-4 'its flow rate'
 ends 3 steady physical.toml --out critical --set physical.flow_rate="$(awk -v f="$fold" 'BEGIN { print 100.2 * f }') nl/s"
 near "$(sed -n 's/.*(\([0-9.]*\) nl\/s), the critical flow rate;.*/\1/p' log | awk '{ print $1 / 100 }')" "$fold" 1e-4 'the critical flow rate'
+# Along other physical keys it is the branch along the one dimensionless key that they change.
+ends 0 branch case.toml --along membrane.bending_ratio --to 0.012 --out stiffer
+ends 0 branch physical.toml --along physical.bending_modulus --to '381.97186341 fJ' --out physical
+near "$(point physical '$' pressure_drop)" "$(point stiffer '$' pressure_drop)" 1e-9 'a branch along the bending modulus'
+head -n 1 physical/branch_physical.csv | grep -q 'physical.bending_modulus \[J\]' || fail 'its values in SI units'
+ends 2 branch physical.toml --along physical.shear_modulus --to '10 mN/m' --out physical
+grep -q 'changes flow.capillary_number' log && grep -q 'branches go along physical.flow_rate, ' log ||
+  fail 'nothing is said of the shear modulus'
+ends 2 branch case.toml --along eps --to 0.3 --out physical && grep -q "did you mean '$key'" log || fail 'a symbol is no key'
 for rates in '"10 nl/s", "12 nl/s"' '"12 nl/s", "10 nl/s"'; do
   ends 0 branch physical.toml --along physical.flow_rate --to '30 nl/s' --set "sweep.physical.flow_rate=[$rates]" --list
   [ "$(grep -c 'flow_rate=' log)" = 1 ] && grep -q 'flow_rate=10nl_per_s' log || fail 'a branch and a part of it'

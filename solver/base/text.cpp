@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <utf8.h>
 #include <vector>
@@ -64,8 +65,12 @@ std::optional<double> to_number(const std::string &text) {
 }
 
 std::vector<std::string> groups_in(const std::string &text, const std::string &pattern) {
+  thread_local std::map<std::string, std::regex> compiled;
+  const auto known = compiled.find(pattern);
+  const std::regex &expression =
+      known != compiled.end() ? known->second : compiled.emplace(pattern, pattern).first->second;
   std::smatch found;
-  if (!std::regex_match(text, found, std::regex(pattern)))
+  if (!std::regex_match(text, found, expression))
     return {};
   return {std::next(found.begin()), found.end()};
 }

@@ -76,9 +76,11 @@ std::string KeyPath::text(double part) const {
 }
 
 std::string KeyPath::text(double part, std::optional<double> error) const {
-  const std::string rate = key_ == flow_key ? flow_rate_text(start_, value(part)) : "";
+  std::string units;
+  for (const Physical &physical : physical_of(start_, key_, value(part)))
+    units += (units.empty() ? "" : ", ") + physical.text;
   return fmt::format("{} = {}{}", key_, number_with_error(value(part), error),
-                     rate.empty() ? "" : " (" + rate + ")");
+                     units.empty() ? "" : " (" + units + ")");
 }
 
 std::string KeyPath::fold_text(double part, std::optional<double> error) const {

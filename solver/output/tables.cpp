@@ -127,8 +127,8 @@ std::vector<std::pair<std::string, double>> physical_values(const Case &physics,
   const auto add = [&](const std::string &name, const std::optional<PhysicalUnit> &unit, double value) {
     values.emplace_back(name_with_unit(name, *unit), value * scales.*unit->scale);
   };
-  if (along == flow_key)
-    add("physical.flow_rate", unit_of("flow_rate"), 1);
+  for (const Physical &physical : physical_of(physics, along, point.parameter))
+    values.emplace_back(fmt::format("{} [{}]", physical.key, unit_text(physical.dimension)), physical.si);
   for (const ReportedQuantity &quantity : branch_quantities())
     if (const auto column = physical_column(quantity, scales); column && is_reported(quantity, point.row))
       values.emplace_back(column->head, point.row.*column->value * column->scale);

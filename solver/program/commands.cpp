@@ -56,8 +56,8 @@ ExitCode list_runs(const CaseInput &input, const RunOptions &options) {
 
 CaseInput one_run_of(CaseInput input, std::size_t number) {
   if (number > input.runs.size())
-    throw InputError(fmt::format("error: --only {}: {} has {}; `capsule run {} --list` shows them\n", number,
-                                 input.name, counted(input.runs.size(), "run"), input.file.string()));
+    throw InputError(fmt::format("error: --only {}: {} has {}; the same command with --list shows them\n",
+                                 number, input.name, counted(input.runs.size(), "run")));
   input.runs = {input.runs[number - 1]};
   return input;
 }
@@ -151,8 +151,9 @@ CaseInput different_branches(CaseInput input, const Task &task,
     const Case &physics = input.runs[i].physics;
     const BranchEnd end = end_of(physics);
     Start start{with_number(physics, end.key, 1), end.value, number(end.key, physics) - end.value, i};
-    if (end.key == flow_key)
-      start.rest.physical.flow_rate = start.rest.physical.pressure = {};
+    for (const Physical &physical :
+         physical_of(physics, end.key, end.value)) // by which it is given, or may be
+      reset_value(*find_key(physical.key), start.rest);
     const auto same = std::ranges::find_if(starts, [&](const Start &other) {
       return other.distance * start.distance > 0 &&
              std::abs(other.end - start.end) <= rounding * std::abs(start.end) &&
@@ -194,9 +195,6 @@ ExitCode find_steady_states(const Arguments &arguments) {
 
 ExitCode follow_branches(const Arguments &arguments) {
   const bool follows_fold = !arguments.fold_along.empty();
-  for (const std::string &key : {arguments.along, arguments.fold_along})
-    if (const std::string near = nearest_key(key); !near.empty() && !find_key(key))
-      throw InputError(fmt::format("error: no branch along '{}'\ndid you mean '{}'?\n", key, near));
   Task task{.motion = false,
             .name = fmt::format("branch --along {} --to {}", arguments.along, arguments.to),
             .branch = true};
@@ -208,15 +206,11 @@ ExitCode follow_branches(const Arguments &arguments) {
     return follows_fold ? std::optional(end_of_branch(physics, arguments.fold_along, arguments.fold_to))
                         : std::nullopt;
   };
-  for (const auto &[name, physics] : input.runs) {
-    require_branch(physics, end(physics).key, end(physics).value);
-    if (follows_fold)
-      require_fold_curve(physics, end(physics).key, *second(physics));
-  }
+  for (const RunInput &run : input.runs)
+    require_branch(run.physics, end(run.physics), second(run.physics));
   const Method method = [&](const Case &physics, const Checkpoint & /*none is saved*/,
                             const Control &control) {
-    return follow_branch(physics, end(physics).key, end(physics).value, control, march_to_rest,
-                         second(physics));
+    return follow_branch(physics, end(physics), control, march_to_rest, second(physics));
   };
   return compute_runs(different_branches(std::move(input), task, end), arguments, {task, method});
 }

@@ -4,7 +4,7 @@
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
 #include "case/physical.hpp"
-#include "case/units.hpp"
+#include "case/symbols.hpp"
 #include "observe/gauge.hpp"
 #include "scene/scene.hpp"
 #include "steady/continuation.hpp"
@@ -24,8 +24,6 @@
 
 namespace capsule {
 namespace {
-
-constexpr const char *flow_rate_key = "physical.flow_rate";
 
 constexpr Branch::Steps steps_of_a_branch{
     .first = 0.02, .largest = 0.1, .tolerance = 1e-9, .largest_miss = 0.2};
@@ -219,73 +217,101 @@ private:
   Homotopy::Fold last_fold_;
 };
 
+// In words: the keys that can be typed.
+std::string where_branches_go(const Case &input) {
+  std::vector<std::string> names = parameters_of_steady_states();
+  if (has_physical(input))
+    names.insert(names.begin(), {"physical.flow_rate", "physical.pressure", "physical.capsule_radius",
+                                 "physical.bending_modulus"});
+  return fmt::format("branches go along {}", fmt::join(names, ", "));
+}
+
 // Throws InputError where no branch goes along this key.
 void require_key(const Case &input, const std::string &key) {
-  std::vector<std::string> names = parameters_of_steady_states();
+  const std::vector<std::string> names = parameters_of_steady_states();
   if (std::ranges::find(names, key) != names.end())
     return;
-  if (has_physical(input))
-    names.emplace_back(flow_rate_key);
-  const std::string near = nearest_word(key, names);
-  throw InputError(fmt::format("error: no branch along '{}'\n{}it goes along one of {}\n", key,
-                               near.empty() ? "" : fmt::format("did you mean '{}'? ", near),
-                               fmt::join(names, ", ")));
+  const std::string near = find_key(key) == nullptr ? nearest_key(key) : "";
+  throw InputError(
+      fmt::format("error: no branch along '{}'\n{}\n", key,
+                  near.empty() ? where_branches_go(input) : fmt::format("did you mean '{}'?", near)));
+}
+
+void require_end(const Case &input, const BranchEnd &end) {
+  const auto &[name, to] = end;
+  require_key(input, name);
+  const Key &key = *find_key(name);
+  if (!means_something(key, input))
+    throw InputError(fmt::format("error: no branch along '{}': {}\n", name, why_meaningless(key, input)));
+  Case there = input;
+  if (const auto complaint = set_value(key, to, there))
+    throw InputError(fmt::format("error: --to {}: {}\n{}\n", number_text(to), complaint->message,
+                                 "allowed: " + allowed_text(key)));
+  if (name == "capsule.radius" && input.flow.type == FlowType::extension)
+    throw InputError("error: no branch along 'capsule.radius': it is the unit of length in an extension\n");
+  if (name == "flow.period" && input.flow.period == 0)
+    throw InputError("error: no branch along 'flow.period': the case has no train\n"
+                     "give flow.period, where the branch begins\n");
+  if (!KeyPath(name, input, to).needed())
+    throw InputError(fmt::format("error: {} = {} is where the branch begins\n", name, number_text(to)));
+}
+
+// The end along a physical key.
+BranchEnd physical_end(const Case &input, const Key &key, const std::string &to) {
+  if (!has_physical(input))
+    throw InputError(fmt::format("error: no branch along '{}': the case has no physical units\n", key.name));
+  Case there = input;
+  if (key.name == "physical.flow_rate" || key.name == "physical.pressure") // each in place of the other
+    there.physical.flow_rate = there.physical.pressure = {};
+  if (const auto complaint = set_value(key, to, there))
+    throw InputError(fmt::format("error: --to: {}\n{}\n", complaint->message, complaint->hint));
+  for (const PhysicalComplaint &complaint : physical_complaints(there))
+    if (std::ranges::find(complaint.keys, key.name) != complaint.keys.end())
+      throw InputError(fmt::format("error: no branch along '{}': {}\n", key.name, complaint.message));
+  const std::vector<std::string> parameters = parameters_of_steady_states();
+  std::vector<std::string> changed;
+  for (const Derived &derived : derived_values(there)) {
+    if (std::ranges::find(parameters, derived.key) == parameters.end())
+      continue;
+    if (derived.from == key.name)
+      return {derived.key, derived.value};
+    if (derived.value != number(derived.key, input))
+      changed.push_back(derived.key);
+  }
+  throw InputError(fmt::format(
+      "error: no branch along '{}': {}\n{}\n", key.name,
+      changed.empty() ? "steady states do not depend on it"
+                      : fmt::format("it changes {} and the scales of the results", fmt::join(changed, ", ")),
+      where_branches_go(input)));
 }
 
 } // namespace
 
-void require_branch(const Case &input, const std::string &key, double to) {
-  require_key(input, key);
-  if (!means_something(*find_key(key), input))
-    throw InputError(
-        fmt::format("error: no branch along '{}': {}\n", key, why_meaningless(*find_key(key), input)));
-  Case there = input;
-  if (const auto complaint = set_value(*find_key(key), to, there))
-    throw InputError(fmt::format("error: --to {}: {}\n{}\n", number_text(to), complaint->message,
-                                 "allowed: " + allowed_text(*find_key(key))));
-  if (key == "capsule.radius" && input.flow.type == FlowType::extension)
-    throw InputError("error: no branch along 'capsule.radius': it is the unit of length in an extension\n");
-  if (key == "flow.period" && input.flow.period == 0)
-    throw InputError("error: no branch along 'flow.period': the case has no train\n"
-                     "give flow.period, where the branch begins\n");
-  if (!KeyPath(key, input, to).needed())
-    throw InputError(fmt::format("error: {} = {} is where the branch begins\n", key, number_text(to)));
-}
-
-void require_fold_curve(const Case &input, const std::string &key, const BranchEnd &second) {
-  if (second.key == key)
-    throw InputError(fmt::format("error: --fold-along {}: the branch goes along it\n", key));
-  require_branch(input, second.key, second.value);
+void require_branch(const Case &input, const BranchEnd &end, const std::optional<BranchEnd> &second) {
+  require_end(input, end);
+  if (!second)
+    return;
+  if (second->key == end.key)
+    throw InputError(fmt::format("error: --fold-along {}: the branch goes along it\n", end.key));
+  require_end(input, *second);
 }
 
 BranchEnd end_of_branch(const Case &input, const std::string &along, const std::string &to) {
-  if (along != flow_rate_key) {
-    if (const auto value = to_number(to))
-      return {along, *value};
-    require_key(input, along);
-    throw InputError(fmt::format("error: --to: {}\n", not_a_number(to)));
-  }
-  if (!has_physical(input))
-    throw InputError(
-        fmt::format("error: no branch along '{}': the case has no physical units\n", flow_rate_key));
-  const auto read = read_quantity(to, dimension::flow_rate);
-  if (const auto *none = std::get_if<NoQuantity>(&read))
-    throw InputError(
-        fmt::format("error: --to {}\nallowed: {}\n", none->why, examples_text(dimension::flow_rate)));
-  return {flow_key,
-          input.flow.capillary_number * std::get<Quantity>(read).si / physical_scales(input).flow_rate};
+  if (const Key *key = find_key(along); key != nullptr && std::holds_alternative<Measured>(key->field))
+    return physical_end(input, *key, to);
+  if (const auto value = to_number(to))
+    return {along, *value};
+  require_key(input, along);
+  throw InputError(fmt::format("error: --to: {}\n", not_a_number(to)));
 }
 
-Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control,
+Outcome follow_branch(const Case &asked, const BranchEnd &end, const Control &control,
                       const MarchToRest &march, const std::optional<BranchEnd> &second) {
-  require_branch(asked, key, to);
-  if (second)
-    require_fold_curve(asked, key, *second);
   Case input = asked;
   input.accuracy = std::min(asked.accuracy, accuracy_of_folds);
-  BranchFollower follower(input, KeyPath(key, input, to), control);
+  BranchFollower follower(input, KeyPath(end.key, input, end.value), control);
   Outcome &outcome = follower.outcome();
-  outcome.along = key;
+  outcome.along = end.key;
   if (const auto empty = empty_resistance(input))
     outcome.further["empty_resistance"] = *empty;
   try {
@@ -301,7 +327,7 @@ Outcome follow_branch(const Case &asked, const std::string &key, double to, cons
     outcome.failure = failure.kind;
     outcome.message = fmt::format("{}{}; {}", failure.what(),
                                   outcome.branch.empty() ? "" : fmt::format(" (after {})", follower.place()),
-                                  failure.advice);
+                                  with_physical_keys(failure.advice, input));
   } catch (const Interrupted &) {
     outcome.status = Status::interrupted;
   }

@@ -15,23 +15,21 @@ struct BranchEnd {
   double value = 0;
 };
 
-// From the case's own value of the key to `to`, by way of folds if need be. The outcome's branch holds the
+// From the case's own value of the key to its end, by way of folds if need be. The outcome's branch holds the
 // points, its folds the turning points (slope zero to rounding error of the parameter), its series and
 // profiles the first point, the folds and the last point. Status: reached; unbounded if the membrane stretches
 // beyond runaway_stretch behind a fold, or much further without one; failed. With `second` its last fold is
-// followed as this other key goes to its end. Throws what require_branch throws. The accuracy is at least
+// followed as this other key goes to its end. Both are as require_branch has them. The accuracy is at least
 // 1e-6.
-Outcome follow_branch(const Case &asked, const std::string &key, double to, const Control &control,
+Outcome follow_branch(const Case &asked, const BranchEnd &end, const Control &control,
                       const MarchToRest &march = {}, const std::optional<BranchEnd> &second = {});
 
-// Throws InputError unless the key is a number that steady states depend on and `to` is in its range and not
-// where the branch begins.
-void require_branch(const Case &input, const std::string &key, double to);
-// The same of the key along which the branch's fold is followed.
-void require_fold_curve(const Case &input, const std::string &key, const BranchEnd &second);
+// Throws InputError unless the keys are two numbers that steady states depend on, and the ends are in their ranges and not
+// where the branch, or the fold along `second`, begins.
+void require_branch(const Case &input, const BranchEnd &end, const std::optional<BranchEnd> &second = {});
 
-// What is typed as --along and --to, for a case. A flow rate with its unit ("20 ul/min") along
-// physical.flow_rate is a capillary number. Throws InputError if it is no number, or no flow rate.
+// What is typed as --along and --to, for a case. A quantity with its unit ("20 ul/min") along a physical key is the value of
+// the one dimensionless key that this changes. Throws InputError if it is no number or quantity, or changes more than that.
 BranchEnd end_of_branch(const Case &input, const std::string &along, const std::string &to);
 
 } // namespace capsule

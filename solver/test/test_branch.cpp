@@ -2,12 +2,14 @@
 #include "base/failure.hpp"
 #include "case/key_path.hpp"
 #include "case/keys.hpp"
+#include "case/physical.hpp"
 #include "law/skalak.hpp"
 #include "steady/branch.hpp"
 #include "steady/continuation.hpp"
 #include "steady/steady_state.hpp"
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <fmt/format.h>
 
 using namespace capsule;
 
@@ -48,7 +50,7 @@ BOOST_AUTO_TEST_CASE(fold_of_a_neo_hookean_capsule) {
   BranchRow folds[2];
   for (const int k : {0, 1}) {
     const Outcome outcome =
-        follow_branch(neo_hookean_case(k == 0 ? 64 : 84), "flow.capillary_number", 0.3, {});
+        follow_branch(neo_hookean_case(k == 0 ? 64 : 84), {"flow.capillary_number", 0.3}, {});
     BOOST_TEST((outcome.status == Status::unbounded));
     BOOST_REQUIRE(outcome.folds.size() == 1);
     const BranchRow &fold = outcome.folds[0];
@@ -81,7 +83,7 @@ BOOST_AUTO_TEST_CASE(folds_of_a_rear_that_snaps_through) {
   physics.capsule.radius = 0.9;
   physics.membrane.bending_ratio = 1e-3;
   physics.flow.capillary_number = 5e-3;
-  const Outcome outcome = follow_branch(physics, "flow.capillary_number", 0.015, {});
+  const Outcome outcome = follow_branch(physics, {"flow.capillary_number", 0.015}, {});
   BOOST_TEST((outcome.status == Status::reached));
   BOOST_REQUIRE(outcome.folds.size() == 2);
   BOOST_TEST(outcome.folds[1].parameter < outcome.folds[0].parameter);
@@ -100,7 +102,7 @@ BOOST_AUTO_TEST_CASE(a_branch_ends_where_the_law_softens) {
   double last[2];
   for (const int k : {0, 1}) {
     physics.mesh.membrane = k == 0 ? 72 : 100;
-    const Outcome outcome = follow_branch(physics, "flow.capillary_number", 0.25, {});
+    const Outcome outcome = follow_branch(physics, {"flow.capillary_number", 0.25}, {});
     BOOST_TEST(outcome.failure == "softening");
     last[k] = outcome.branch.back().parameter;
   }
@@ -131,7 +133,7 @@ BOOST_AUTO_TEST_CASE(fold_under_constant_pressure) {
   Case physics = neo_hookean_case(64);
   physics.pore.exit_x = 3;
   physics.flow.drive = DriveBy::pressure;
-  const Outcome outcome = follow_branch(physics, "flow.capillary_number", 0.3, {});
+  const Outcome outcome = follow_branch(physics, {"flow.capillary_number", 0.3}, {});
   BOOST_REQUIRE(outcome.folds.size() == 1);
   const BranchRow &fold = outcome.folds[0];
   BOOST_TEST(std::abs(fold.growth_rate) < 1e-6);
@@ -148,7 +150,7 @@ BOOST_AUTO_TEST_CASE(fold_under_constant_pressure) {
 BOOST_AUTO_TEST_CASE(the_end_of_a_branch_is_a_steady_state) {
   Case physics = neo_hookean_case(44);
   physics.output.resistance = true;
-  const Outcome outcome = follow_branch(physics, "capsule.radius", 0.7, {});
+  const Outcome outcome = follow_branch(physics, {"capsule.radius", 0.7}, {});
   BOOST_TEST((outcome.status == Status::reached));
   BOOST_TEST(outcome.folds.empty());
   BOOST_TEST(outcome.branch.back().parameter == 0.7);
@@ -172,7 +174,7 @@ BOOST_AUTO_TEST_CASE(a_branch_that_breaks_off) {
       throw NumericsFailure("unresolved", "no way on", "none");
     return false;
   };
-  const Outcome outcome = follow_branch(neo_hookean_case(24), "capsule.radius", 0.5, control);
+  const Outcome outcome = follow_branch(neo_hookean_case(24), {"capsule.radius", 0.5}, control);
   BOOST_TEST((outcome.status == Status::failed));
   BOOST_TEST(outcome.message.find("no way on (after capsule.radius = 0.") != std::string::npos);
   BOOST_REQUIRE(outcome.branch.size() > 1);
@@ -184,12 +186,53 @@ BOOST_AUTO_TEST_CASE(a_branch_that_breaks_off) {
   BOOST_TEST(outcome.last.profiles[1].time == outcome.branch.back().parameter);
 }
 
+// A physical key that changes one dimensionless key alone leads along that one.
+BOOST_AUTO_TEST_CASE(ends_in_physical_units) {
+  Case physics = neo_hookean_case(44);
+  physics.physical.tube_radius = {5e-6, "5 um"};
+  physics.physical.viscosity = {1e-3};
+  physics.physical.shear_modulus = {2e-5};
+  physics.physical.capsule_radius = {4e-6};
+  const double rate = 0.2 * 3.14159265358979 * 25e-12 * 2e-5 / 1e-3; // at the case's capillary number
+  physics.physical.flow_rate = {rate};
+  const auto check = [](const BranchEnd &end, const char *key, double value) {
+    BOOST_TEST(end.key == key);
+    BOOST_TEST(end.value == value, boost::test_tools::tolerance(1e-12));
+  };
+  check(end_of_branch(physics, "physical.flow_rate", fmt::format("{} m3/s", 2 * rate)), flow_key, 0.4);
+  check(end_of_branch(physics, "physical.capsule_radius", "3 um"), "capsule.radius", 0.6);
+  check(end_of_branch(physics, "physical.bending_modulus", "5 aJ"), bending_key, 1e-2);
+  const auto message = [&](const char *key, const char *to) -> std::string {
+    try {
+      end_of_branch(physics, key, to);
+    } catch (const InputError &error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto says = [&](const char *key, const char *to, const char *part) {
+    BOOST_TEST(message(key, to).find(part) != std::string::npos, message(key, to));
+  };
+  says("physical.pressure", "20 Pa", "physical.pressure needs physical.pore_length");
+  says("physical.shear_modulus", "1 mN/m", "changes flow.capillary_number and the scales");
+  says("physical.tube_radius", "6 um", "changes flow.capillary_number, capsule.radius and the scales");
+  says("physical.internal_viscosity", "6 cP", "steady states do not depend on it");
+  says("physical.capsule_radius", "3", "has no unit");
+  // The flow grows with the pressure.
+  physics.physical.flow_rate = {};
+  physics.physical.pressure = {20};
+  physics.physical.pore_length = {1e-4};
+  physics.flow.capillary_number = derived_values(physics).front().value;
+  check(end_of_branch(physics, "physical.pressure", "50 Pa"), flow_key, 2.5 * physics.flow.capillary_number);
+  says("physical.bending_modulus", "5 Pa", "physical.bending_modulus: ");
+}
+
 BOOST_AUTO_TEST_CASE(no_branch_there) {
   const Case physics = neo_hookean_case(44);
-  BOOST_CHECK_THROW(follow_branch(physics, "flow.viscosity_ratio", 2, {}), InputError);
-  BOOST_CHECK_THROW(follow_branch(physics, "flow.capilary_number", 2, {}), InputError);
-  BOOST_CHECK_THROW(follow_branch(physics, "flow.capillary_number", -1, {}), InputError);
-  BOOST_CHECK_THROW(follow_branch(physics, "flow.capillary_number", 0.2, {}), InputError);
+  BOOST_CHECK_THROW(require_branch(physics, {"flow.viscosity_ratio", 2}), InputError);
+  BOOST_CHECK_THROW(require_branch(physics, {"flow.capilary_number", 2}), InputError);
+  BOOST_CHECK_THROW(require_branch(physics, {"flow.capillary_number", -1}), InputError);
+  BOOST_CHECK_THROW(require_branch(physics, {"flow.capillary_number", 0.2}), InputError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -110,7 +110,7 @@ std::string fold_rows(const Family &family, const Direction &direction) {
 
 // The branch of one size and stiffness, and its folds.
 std::string branch_rows(const Family &family) {
-  const Outcome outcome = follow_branch(case_of(family), flow_key, strong, {});
+  const Outcome outcome = follow_branch(case_of(family), {flow_key, strong}, {});
   std::string rows;
   const auto add = [&](const BranchRow &point, const char *kind) {
     rows += fmt::format("{},{},{:.10g},{:.8g},{:.8g},{},{:.4g}\n", family.name, kind, point.parameter,

@@ -81,7 +81,7 @@ std::string slope_row(const Sphere &sphere) {
 
 // Rows, one a point; the last column says that the row is a fold, or else how the branch ended.
 std::string branch_rows(const Sphere &sphere) {
-  const Outcome outcome = follow_branch(case_of(sphere, weakest), flow_key, strongest, {});
+  const Outcome outcome = follow_branch(case_of(sphere, weakest), {flow_key, strongest}, {});
   std::string rows;
   const auto add = [&](const BranchRow &point, const std::string &end) {
     rows +=
