@@ -7,27 +7,31 @@ using namespace capsule;
 
 namespace {
 
+Wall wall_of(PoreShape shape, double opening_angle, const FlowResolution &resolution) {
+  PoreSpec pore;
+  pore.shape = shape;
+  pore.opening_angle_deg = opening_angle;
+  pore.exit_x = 8;
+  return {*make_pore(pore), resolution};
+}
+
+FlowResolution to(double tolerance) {
+  return {.wall_panel_points = 10, .lip_panel = 0.08, .near_tolerance = tolerance};
+}
+
 // Between the flows that a smooth load makes of spheres of radius 0.8 with both walls, relative to the flow's largest
 // velocity and to its pressure drop.
 struct Comparison {
   double velocity, pressure_drop;
   Eigen::Index whole, compressed; // points of the wall
 };
-Comparison compare(PoreShape shape, double opening_angle, const std::vector<double> &centres,
-                   double tolerance, double viscosity_ratio) {
-  PoreSpec pore;
-  pore.shape = shape;
-  pore.opening_angle_deg = opening_angle;
-  pore.exit_x = 8;
-  FlowResolution resolution;
-  resolution.near_tolerance = tolerance;
-  resolution.wall_panel_points = 10;
-  resolution.lip_panel = 0.08;
+Comparison compare(const Wall &wall, const FlowResolution &resolution, const std::vector<double> &centres,
+                   double viscosity_ratio) {
   const MeridianBasis basis = spectral_basis(40);
   const std::vector<MembraneMesh> meshes(centres.size(), make_membrane_mesh(basis, resolution));
   const MembraneMesh mesh = join(meshes);
-  const Flow flow(Wall(*make_pore(pore), resolution), mesh,
-                  {.viscosity_ratios = std::vector<double>(centres.size(), viscosity_ratio)}, 1e-12);
+  const Flow flow(wall, mesh, {.viscosity_ratios = std::vector<double>(centres.size(), viscosity_ratio)},
+                  1e-12);
   Vector position(2 * mesh.nodes), load(2 * mesh.nodes);
   for (std::size_t k = 0; k < centres.size(); ++k) {
     const std::vector<Eigen::Index> rows = mesh.rows(k);
@@ -58,21 +62,24 @@ BOOST_AUTO_TEST_CASE(gives_the_flow_with_the_whole_wall) {
     for (const auto &[shape, angle] : {std::pair(PoreShape::hyperbolic, 78.5),
                                        {PoreShape::hyperbolic, 30},
                                        {PoreShape::two_mouths, 90},
-                                       {PoreShape::tube, 90}})
+                                       {PoreShape::tube, 90}}) {
+      const Wall wall = wall_of(shape, angle, to(tolerance));
       for (const double x : {-4.0, -1.1, 0.3, 4.2}) {
         BOOST_TEST_CONTEXT("pore " << static_cast<int>(shape) << ", capsule at " << x << ", tolerance "
                                    << tolerance) {
-          const Comparison walls = compare(shape, angle, {x}, tolerance, 1);
+          const Comparison walls = compare(wall, to(tolerance), {x}, 1);
           BOOST_TEST(walls.velocity < tolerance);
           BOOST_TEST(walls.pressure_drop < tolerance);
           BOOST_TEST(walls.compressed < walls.whole);
         }
       }
+    }
 }
 
 BOOST_AUTO_TEST_CASE(serves_other_liquids_and_several_capsules) {
   const double tolerance = 1e-7;
-  const Comparison walls = compare(PoreShape::two_mouths, 60, {9.5, -1}, tolerance, 5);
+  const Comparison walls =
+      compare(wall_of(PoreShape::two_mouths, 60, to(tolerance)), to(tolerance), {9.5, -1}, 5);
   BOOST_TEST(walls.velocity < tolerance);
   BOOST_TEST(walls.pressure_drop < tolerance);
 }

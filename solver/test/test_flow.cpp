@@ -18,24 +18,35 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Case pore_case(double radius, double start_x) {
+Case unbounded_case() {
   Case physics;
-  physics.capsule.radius = radius;
-  physics.capsule.start_x = start_x;
+  physics.capsule.radius = 1;
+  physics.capsule.start_x = 0;
+  physics.pore.shape = PoreShape::none;
+  physics.flow.type = FlowType::extension;
   physics.flow.capillary_number = 1;
   return physics;
 }
 
-Case unbounded_case() {
-  Case physics = pore_case(1, 0);
-  physics.pore.shape = PoreShape::none;
-  physics.flow.type = FlowType::extension;
-  return physics;
-}
+// Spheres in one pore, whose wall is inverted once.
+class RigidSpheres {
+public:
+  explicit RigidSpheres(const PoreSpec &pore)
+      : flow_(Wall(make_pore(pore).value(), {}), make_membrane_mesh(basis_, {}), {}, 1e-10) {}
+  RigidSphere at(double x, double a) const { return rigid_sphere(flow_, basis_, x, a); }
 
-RigidSphere rigid_sphere_in(const Case &physics, double x, double a) {
-  const MeridianBasis basis = spectral_basis(48);
-  return rigid_sphere(make_flow(make_pore(physics.pore), physics.flow, basis, {}), basis, x, a);
+private:
+  MeridianBasis basis_ = spectral_basis(48);
+  Flow flow_;
+};
+
+// The wall of a pore, with a drop of this viscosity ratio in it.
+Flow drop_in(const Wall &wall, const MeridianBasis &basis, double viscosity_ratio,
+             const FlowResolution &resolution = {}) {
+  return {wall,
+          make_membrane_mesh(basis, resolution),
+          {.viscosity_ratios = {viscosity_ratio}},
+          resolution.solver_tolerance};
 }
 
 } // namespace
@@ -73,15 +84,13 @@ BOOST_AUTO_TEST_CASE(viscous_drop_translates) {
 // A force-free rigid sphere on the axis: two independent programs agree on these digits (classical problem of
 // Haberman and Sayre).
 BOOST_AUTO_TEST_CASE(rigid_sphere_in_a_tube) {
+  const RigidSpheres spheres({.shape = PoreShape::tube, .entrance_distance = 2});
   struct Row {
     double a, v_g, pressure_drop;
   };
   for (const Row row : {Row{0.1, 1.98666993, 1.600029e-4}, Row{0.3, 1.88091761, 0.03903349},
                         Row{0.5, 1.67984674, 0.5218392}, Row{0.7, 1.41627863, 3.285772}}) {
-    Case physics = pore_case(row.a, 7);
-    physics.pore.shape = PoreShape::tube;
-    physics.pore.entrance_distance = 2;
-    const RigidSphere found = rigid_sphere_in(physics, 7, row.a);
+    const RigidSphere found = spheres.at(7, row.a);
     BOOST_TEST(std::abs(found.v_g - row.v_g) < 1e-7);
     BOOST_TEST(std::abs(found.pressure_drop - row.pressure_drop) < 1e-6 * (1 + row.pressure_drop));
     BOOST_TEST(std::abs(found.reciprocal - row.pressure_drop) < 1e-6 * (1 + row.pressure_drop));
@@ -91,14 +100,12 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_in_a_tube) {
 // Between two mouths: the mirror image in the middle of the pore, and there the tube's values.
 BOOST_AUTO_TEST_CASE(rigid_sphere_between_two_mouths) {
   constexpr double a = 0.7;
-  Case physics = pore_case(a, 4);
-  physics.pore.shape = PoreShape::two_mouths;
-  physics.pore.exit_x = 8;
-  const RigidSphere middle = rigid_sphere_in(physics, 4, a);
+  const RigidSpheres spheres({.shape = PoreShape::two_mouths, .exit_x = 8});
+  const RigidSphere middle = spheres.at(4, a);
   BOOST_TEST(std::abs(middle.v_g - 1.41627863) < 1e-6);
   BOOST_TEST(std::abs(middle.pressure_drop - 3.285772) < 1e-5);
   for (const double x : {-3.0, -0.5, 0.1, 1.0}) {
-    const RigidSphere before = rigid_sphere_in(physics, x, a), behind = rigid_sphere_in(physics, 8 - x, a);
+    const RigidSphere before = spheres.at(x, a), behind = spheres.at(8 - x, a);
     BOOST_TEST(std::abs(before.v_g - behind.v_g) < 1e-7);
     BOOST_TEST(std::abs(before.pressure_drop - behind.pressure_drop) < 2e-7);
     BOOST_TEST(std::abs(behind.reciprocal - behind.pressure_drop) < 2e-6);
@@ -110,16 +117,13 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_between_two_mouths) {
 // 1.9e-3. The reservoirs reach so far that their ends do not count.
 BOOST_AUTO_TEST_CASE(a_second_mouth_is_felt_less_and_less) {
   constexpr double exit = 8, a = 0.5, step = 0.4;
-  const auto in = [&](PoreShape shape, double end, double distance) {
-    Case physics = pore_case(a, exit - distance);
-    physics.pore = {.shape = shape, .exit_x = end, .entrance_distance = 300};
-    return rigid_sphere_in(physics, exit - distance, a);
-  };
+  const RigidSpheres two_mouths({.shape = PoreShape::two_mouths, .exit_x = exit, .entrance_distance = 300}),
+      one_mouth({.exit_x = 2 * exit, .entrance_distance = 300});
   std::array<RigidSphere, 3> with{}, without{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double distance = 2 + static_cast<double>(k) * step;
-    with.at(k) = in(PoreShape::two_mouths, exit, distance);
-    without.at(k) = in(PoreShape::hyperbolic, 2 * exit, distance);
+    with.at(k) = two_mouths.at(exit - distance, a);
+    without.at(k) = one_mouth.at(exit - distance, a);
   }
   constexpr double decay = 4.466299, turn = 1.467470;
   const double sum = 2 * std::exp(-decay * step) * std::cos(turn * step),
@@ -137,11 +141,9 @@ BOOST_AUTO_TEST_CASE(extreme_viscosity_ratios) {
   const MeridianBasis basis = spectral_basis(32);
   const Eigen::Index n = basis.size();
   const Vector position = sphere(basis, 7, 0.8);
+  const Wall wall(make_pore({.shape = PoreShape::tube, .entrance_distance = 2}).value(), {});
   const auto drop = [&](double lambda) {
-    Case physics = pore_case(0.8, 7);
-    physics.pore.shape = PoreShape::tube;
-    physics.flow.viscosity_ratio = lambda;
-    const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
+    const Flow flow = drop_in(wall, basis, lambda);
     const Interaction interaction = flow.interact(position);
     Recycled recycled;
     FlowState state = flow.solve(interaction, Vector::Zero(2 * n), recycled);
@@ -162,16 +164,13 @@ BOOST_AUTO_TEST_CASE(extreme_viscosity_ratios) {
 
 // With lambda != 1 the two routes to the pressure drop meet through different integrals.
 BOOST_AUTO_TEST_CASE(pressure_drop_by_two_routes) {
-  for (const PoreShape shape : {PoreShape::hyperbolic, PoreShape::two_mouths})
-    for (const double lambda : {0.2, 1.0, 5.0})
+  const MeridianBasis basis = spectral_basis(40);
+  const Eigen::Index n = basis.size();
+  for (const PoreSpec &pore : {PoreSpec{.exit_x = 15}, {.shape = PoreShape::two_mouths, .exit_x = 6}}) {
+    const Wall wall(make_pore(pore).value(), {});
+    for (const double lambda : {0.2, 1.0, 5.0}) {
+      const Flow flow = drop_in(wall, basis, lambda);
       for (const double x : {-2.0, -0.3, 5.0, 6.3}) {
-        Case physics = pore_case(0.7, x);
-        physics.pore.shape = shape;
-        physics.pore.exit_x = shape == PoreShape::two_mouths ? 6 : 15;
-        physics.flow.viscosity_ratio = lambda;
-        const MeridianBasis basis = spectral_basis(40);
-        const Eigen::Index n = basis.size();
-        const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
         const Vector position = sphere(basis, x, 0.7);
         Vector load(2 * n); // smooth, with the parities and no resultant
         const Eigen::ArrayXd zeta = basis.nodes;
@@ -183,18 +182,17 @@ BOOST_AUTO_TEST_CASE(pressure_drop_by_two_routes) {
                             flow.reciprocal_pressure_drops(interaction, load, state, traction).sum()) <
                    2e-6 * (1 + std::abs(state.pressure_drop)));
       }
+    }
+  }
 }
 
 // In the second mouth a drop of an endlessly viscous liquid goes as a rigid sphere.
 BOOST_AUTO_TEST_CASE(viscous_drop_leaves_the_pore) {
   constexpr double a = 0.7;
-  Case physics = pore_case(a, 6.2);
-  physics.pore.shape = PoreShape::two_mouths;
-  physics.pore.exit_x = 6;
-  const RigidSphere rigid = rigid_sphere_in(physics, 6.2, a);
-  physics.flow.viscosity_ratio = 1e8;
   const MeridianBasis basis = spectral_basis(48);
-  const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
+  const Wall wall(make_pore({.shape = PoreShape::two_mouths, .exit_x = 6}).value(), {});
+  const RigidSphere rigid = rigid_sphere(drop_in(wall, basis, 1), basis, 6.2, a);
+  const Flow flow = drop_in(wall, basis, 1e8);
   Recycled recycled;
   const FlowState drop =
       flow.solve(flow.interact(sphere(basis, 6.2, a)), Vector::Zero(2 * basis.size()), recycled);
@@ -233,14 +231,11 @@ BOOST_AUTO_TEST_CASE(nodes_beside_quadrature_points) {
 // What is reused from shape to shape saves time only: on a path through the mouth, where it stands still and after a
 // jump, the flow is the one that is found afresh, to the solver's tolerance.
 BOOST_AUTO_TEST_CASE(recycling_changes_nothing) {
+  const MeridianBasis basis = spectral_basis(32);
+  const Eigen::Index n = basis.size();
+  const Wall wall(make_pore({.exit_x = 9}).value(), {});
   for (const double lambda : {0.2, 5.0}) {
-    Case physics = pore_case(0.7, -0.5);
-    physics.flow.viscosity_ratio = lambda;
-    const MeridianBasis basis = spectral_basis(32);
-    const Eigen::Index n = basis.size();
-    FlowResolution resolution;
-    resolution.solver_tolerance = 1e-9;
-    const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, resolution);
+    const Flow flow = drop_in(wall, basis, lambda, {.solver_tolerance = 1e-9});
     Recycled carried, carried_traction;
     for (const int k : {0, 1, 2, 3, 4, 5, 5, 5, 5, 5, 5, 60, 60, 1}) {
       Vector position = sphere(basis, -0.5 + 0.12 * k, 0.7);
@@ -306,12 +301,11 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_solved_is_a_failure) {
 // The liquid around a capsule sticks to the wall, moves with the membrane, and carries the flux pi through every
 // section that misses the capsule.
 BOOST_AUTO_TEST_CASE(velocity_around_a_capsule) {
+  const MeridianBasis basis = spectral_basis(40);
+  const Eigen::Index n = basis.size();
+  const Wall wall_of_pore(make_pore({}).value(), {});
   for (const double lambda : {1.0, 5.0}) {
-    Case physics = pore_case(0.7, 5);
-    physics.flow.viscosity_ratio = lambda;
-    const MeridianBasis basis = spectral_basis(40);
-    const Eigen::Index n = basis.size();
-    const Flow flow = make_flow(make_pore(physics.pore), physics.flow, basis, {});
+    const Flow flow = drop_in(wall_of_pore, basis, lambda);
     Vector load(2 * n); // as above
     const Eigen::ArrayXd zeta = basis.nodes;
     load << (2 * zeta).cos() + 1.0 / 3, (zeta.sin() * (1 + zeta.cos()));

@@ -9,8 +9,13 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Wall pore_wall(double opening_angle_deg = 78.5) {
+Wall pore_wall(double opening_angle_deg) {
   return {make_pore({.opening_angle_deg = opening_angle_deg}).value(), {}};
+}
+
+const Wall &papers_wall() {
+  static const Wall wall = pore_wall(78.5);
+  return wall;
 }
 
 } // namespace
@@ -18,7 +23,7 @@ Wall pore_wall(double opening_angle_deg = 78.5) {
 BOOST_AUTO_TEST_SUITE(wall)
 
 BOOST_AUTO_TEST_CASE(empty_pore_is_poiseuille_in_the_tube) {
-  const Wall pore = pore_wall();
+  const Wall &pore = papers_wall();
   Targets points{Vector(6), Vector(6)};
   points.x << 1.5, 3, 5, 8, 11, 13.5;
   points.r << 0, 0.3, 0.9, 0.7, 0.05, 0.5;
@@ -34,7 +39,7 @@ BOOST_AUTO_TEST_CASE(empty_pore_is_poiseuille_in_the_tube) {
 
 // The same flux pi crosses every section of the mouth.
 BOOST_AUTO_TEST_CASE(flux_is_conserved_across_the_mouth) {
-  const Wall pore = pore_wall();
+  const Wall &pore = papers_wall();
   const GaussRule rule = gauss_legendre(24);
   for (const double x : {-3.0, -0.5, -0.02, 0.02, 0.5, 6.0}) {
     const double wall = x < 0 ? std::sqrt(1 + x * x * std::pow(std::tan(78.5 * pi / 180), 2)) : 1;
