@@ -2,6 +2,7 @@
 #include "base/failure.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
+#include "motion/march.hpp"
 #include "motion/motion.hpp"
 #include "scene/resolution.hpp"
 #include "steady/steady_state.hpp"
@@ -31,15 +32,23 @@ Case in_extension(const MembraneLaw &law, double capillary_number, double viscos
   return physics;
 }
 
+// Without the companion that only estimates errors.
+Outcome march_alone(const Case &input) {
+  return march_once(input, {}, {}, Role::main);
+}
+
 double steady_deformation(const Case &physics) {
-  const Outcome outcome = march(physics, {}, {});
+  const Outcome outcome = march_alone(physics);
   BOOST_REQUIRE(outcome.status == Status::reached);
   BOOST_TEST(outcome.last.series.back().max_radial_velocity < 1e-6);
   return outcome.last.series.back().deformation;
 }
 
+// Into a short pore, whose wall is soon inverted.
 Case short_entrance() {
   Case physics;
+  physics.pore.exit_x = 4;
+  physics.pore.entrance_distance = 10;
   physics.capsule.radius = 0.8;
   physics.flow.capillary_number = 0.09;
   physics.mesh.membrane = 24;
@@ -75,6 +84,8 @@ BOOST_AUTO_TEST_CASE(small_deformation_in_extension) {
 BOOST_AUTO_TEST_CASE(a_resumed_march_is_the_same) {
   for (const double viscosity_ratio : {1.0, 5.0}) {
     Case physics = short_entrance();
+    physics.capsule.start_x = -2;
+    physics.until.x_g = -1.2;
     physics.flow.viscosity_ratio = viscosity_ratio;
     const Outcome whole = march(physics, {}, {});
     BOOST_REQUIRE((whole.status == Status::reached));
@@ -104,14 +115,16 @@ BOOST_AUTO_TEST_CASE(a_march_that_is_interrupted_anywhere_is_the_same) {
     for (const double viscosity_ratio : {1.0, 5.0}) {
       Case physics = short_entrance();
       physics.flow.viscosity_ratio = viscosity_ratio;
+      physics.accuracy = 1e-2;
       physics.mesh.membrane = 16;
-      physics.until.x_g = -3.2;
-      physics.output.profiles_at_x_g = {-3.71, -3.5};
+      physics.capsule.start_x = -2;
+      physics.until.x_g = -1.7;
+      physics.output.profiles_at_x_g = {-1.91, -1.8};
       physics.time.scheme = scheme;
       physics.time.step = 4e-3;
       const Outcome whole = march(physics, {}, {});
       BOOST_REQUIRE_MESSAGE((whole.status == Status::reached), whole.message);
-      const int patience = scheme == Scheme::bdf ? 20 : 150;
+      const int patience = scheme == Scheme::bdf ? 15 : 30;
       Checkpoint saved;
       Outcome last;
       int calls = 0;
@@ -144,8 +157,8 @@ BOOST_AUTO_TEST_CASE(further_rows_change_nothing) {
   Case with_profiles = physics;
   with_profiles.output.profiles_at_x_g = {-3.99, -3.33, -3.31, -2, -1.01};
   with_profiles.output.profiles_at_time = {0.5, 1, 1.0001};
-  const Checkpoint plain = march(physics, {}, {}).last;
-  const Checkpoint further = march(with_profiles, {}, {}).last;
+  const Checkpoint plain = march_alone(physics).last;
+  const Checkpoint further = march_alone(with_profiles).last;
   BOOST_TEST(further.profiles.size() == plain.profiles.size() + 8);
   BOOST_TEST(further.series.size() == plain.series.size() + 7); // -2 has a row of its own
   BOOST_TEST(further.steps == plain.steps);
@@ -162,9 +175,11 @@ BOOST_AUTO_TEST_CASE(further_rows_change_nothing) {
 // rows near the end: a single one may be right by accident.
 BOOST_AUTO_TEST_CASE(error_estimates_bound_the_error) {
   Case physics = short_entrance();
-  physics.until.x_g = -1.5;
+  physics.capsule.start_x = -3;
+  physics.until.x_g = -0.8;
   physics.mesh.membrane = 40;
-  const std::vector<SeriesRow> exact = march(physics, {}, {}).last.series;
+  physics.time.tolerance = 1e-9;
+  const std::vector<SeriesRow> exact = march_alone(physics).last.series;
   for (const Scheme scheme : {Scheme::bdf, Scheme::euler}) {
     Case coarse = physics;
     coarse.mesh.membrane = 20;
@@ -190,7 +205,7 @@ BOOST_AUTO_TEST_CASE(error_estimates_in_time_bound_the_error) {
   Case physics = in_extension(neo_hookean, 0.2, 1);
   physics.until.time = 0.5;
   physics.mesh.membrane = 64; // its errors are then those of the time
-  const std::vector<SeriesRow> exact = march(physics, {}, {}).last.series;
+  const std::vector<SeriesRow> exact = march_alone(physics).last.series;
   physics.time.tolerance = 1e-6;
   const Outcome outcome = march(physics, {}, {});
   const std::vector<SeriesRow> &rows = outcome.last.series;
@@ -213,7 +228,7 @@ BOOST_AUTO_TEST_CASE(first_deformation_is_that_of_a_viscous_inclusion) {
   for (const double viscosity_ratio : {0.2, 1.0, 10.0}) {
     Case physics = in_extension(neo_hookean, 100, viscosity_ratio);
     physics.until.time = 1e-3;
-    const double deformation = march(physics, {}, {}).last.series.back().deformation;
+    const double deformation = march_alone(physics).last.series.back().deformation;
     const double inclusion = 3.75e-3 / (2 * viscosity_ratio + 3);
     BOOST_TEST(std::abs(deformation - inclusion) < 2e-3 * inclusion);
   }
@@ -237,6 +252,7 @@ BOOST_AUTO_TEST_CASE(wrinkles_stop_a_membrane_without_bending_stiffness) {
   physics.capsule.radius = 0.8;
   physics.flow.capillary_number = 0.12;
   physics.membrane.bending_ratio = 0;
+  physics.pore.exit_x = 7;
   physics.capsule.start_x = -2.5;
   physics.mesh.membrane = 64;
   physics.time.tolerance = 1e-6;
@@ -253,6 +269,7 @@ BOOST_AUTO_TEST_CASE(wrinkles_stop_a_membrane_without_bending_stiffness) {
 BOOST_AUTO_TEST_CASE(wrinkles_on_chosen_nodes_begin_again_on_more) {
   Case physics;
   physics.accuracy = 1e-2;
+  physics.pore.exit_x = 7;
   physics.capsule.radius = 0.8;
   physics.capsule.start_x = -2.5;
   physics.flow.capillary_number = 0.12;
@@ -304,6 +321,55 @@ BOOST_AUTO_TEST_CASE(wrinkles_on_chosen_nodes_begin_again_on_more) {
   same(resumed, finer);
 }
 
+// What is not resolved on chosen nodes begins again on half as many more and then on three times as many; what wrinkles
+// begins again once. A finer mesh is believed where it arrives, and the last one where it fails.
+BOOST_AUTO_TEST_CASE(what_is_not_resolved_begins_again_twice) {
+  Case physics = in_extension(neo_hookean, 0.1, 1);
+  physics.accuracy = 1e-2;
+  physics.mesh.membrane = 0;
+  physics.time.tolerance = 0;
+  physics.until.time = 0.05;
+  const int chosen = choose_resolution(physics).membrane_nodes;
+  const auto after_failures = [&](int failures, const char *kind) {
+    Control control;
+    control.interrupted = [&] {
+      if (failures > 0) {
+        --failures;
+        throw NumericsFailure(kind, "stub", "none");
+      }
+      return false;
+    };
+    return march(physics, {}, control);
+  };
+  BOOST_TEST(after_failures(0, failure_kind::unresolved).membrane_nodes == 0);
+  BOOST_TEST(after_failures(1, failure_kind::unresolved).membrane_nodes == 3 * chosen / 2);
+  const Outcome third = after_failures(2, failure_kind::unresolved);
+  BOOST_TEST((third.status == Status::reached));
+  BOOST_TEST(third.membrane_nodes == 3 * chosen);
+  BOOST_TEST(third.last.position.size() == 2L * 3 * chosen);
+  BOOST_TEST(third.error_estimate.at("deformation@time") < 1e-4);
+  BOOST_TEST(after_failures(3, failure_kind::unresolved).failure == failure_kind::unresolved);
+  BOOST_TEST(after_failures(2, failure_kind::wrinkled).failure == failure_kind::wrinkled);
+}
+
+// A march that hardly gains any time in a thousand steps is given up: one that goes on as if it had made all but one of them.
+BOOST_AUTO_TEST_CASE(a_thousand_steps_without_gain_are_enough) {
+  Case physics = in_extension(neo_hookean, 0.1, 1);
+  physics.until.time = 0.1;
+  Checkpoint saved;
+  Control control;
+  control.save = [&](const Checkpoint &checkpoint) { saved = checkpoint; };
+  control.interrupted = [steps = 0]() mutable { return ++steps > 5; };
+  BOOST_REQUIRE((march(physics, {}, control).status == Status::interrupted));
+  saved.steps = 999;
+  saved.checked = saved.time - 0.01;
+  BOOST_TEST((march(physics, saved, {}).status == Status::reached));
+  saved.checked = saved.time;
+  const Outcome outcome = march(physics, saved, {});
+  BOOST_TEST(outcome.failure == failure_kind::unresolved);
+  BOOST_TEST(outcome.message.find("the last 1000 steps add") == 0U, outcome.message);
+}
+
 // A neo-Hookean capsule has no steady state in a strong extension.
 BOOST_AUTO_TEST_CASE(runaway_is_reported_as_unbounded) {
   Case physics = in_extension(neo_hookean, 1, 1);
@@ -319,6 +385,7 @@ BOOST_AUTO_TEST_CASE(runaway_is_reported_as_unbounded) {
 BOOST_AUTO_TEST_CASE(contact_between_the_nodes_is_seen) {
   Case physics;
   physics.pore.shape = PoreShape::tube;
+  physics.pore.exit_x = physics.pore.entrance_distance = 4;
   physics.capsule.start_x = 0;
   physics.capsule.aspect_ratio = 0.6;
   physics.capsule.radius = 1.001 * std::cbrt(0.6);
@@ -376,7 +443,7 @@ BOOST_AUTO_TEST_CASE(stiff_capsule_under_constant_pressure) {
     physics.membrane.law = neo_hookean;
     physics.accuracy = 1e-5;
     physics.until.time = 100 * capillary_number;
-    const Outcome outcome = march(physics, {}, {});
+    const Outcome outcome = march_alone(physics);
     BOOST_REQUIRE(outcome.status == Status::reached);
     return outcome.last.series.back().flow_rate;
   };
@@ -389,7 +456,7 @@ BOOST_AUTO_TEST_CASE(stiff_capsule_under_constant_pressure) {
 BOOST_AUTO_TEST_CASE(steady_state_under_constant_pressure) {
   Case physics;
   physics.pore.shape = PoreShape::tube;
-  physics.pore.exit_x = physics.pore.entrance_distance = 10;
+  physics.pore.exit_x = physics.pore.entrance_distance = 6;
   physics.capsule.radius = 0.8;
   physics.capsule.start_x = -1;
   physics.flow.drive = DriveBy::pressure;
@@ -415,7 +482,7 @@ BOOST_AUTO_TEST_CASE(steady_state_under_constant_pressure) {
   physics.flow.capillary_number *= end.flow_rate;
   const SeriesRow given = steady(physics, {}, {}).last.series.back();
   BOOST_TEST(given.flow_rate == 1);
-  BOOST_TEST(end.flow_rate == 1 - end.pressure_drop / 160, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(end.flow_rate == 1 - end.pressure_drop / 96, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(end.v_g == end.flow_rate * given.v_g, boost::test_tools::tolerance(1e-5));
   BOOST_TEST(end.pressure_drop == end.flow_rate * given.pressure_drop, boost::test_tools::tolerance(1e-4));
   BOOST_TEST(end.length == given.length, boost::test_tools::tolerance(1e-5));
@@ -427,7 +494,7 @@ BOOST_AUTO_TEST_CASE(steady_state_under_constant_pressure) {
 BOOST_AUTO_TEST_CASE(a_membrane_bursts_where_it_comes_to_what_it_bears) {
   Case physics = short_entrance();
   physics.time.tolerance = 1e-8;
-  const Outcome whole = march(physics, {}, {});
+  const Outcome whole = march_alone(physics);
   BOOST_REQUIRE(whole.status == Status::reached);
   const std::vector<SeriesRow> &rows = whole.last.series;
   for (const auto &[limit, value] : {std::pair(&UntilSpec::area_stretch, &SeriesRow::max_area_stretch),
