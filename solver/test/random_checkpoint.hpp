@@ -39,7 +39,7 @@ inline Checkpoint random_checkpoint() {
   Checkpoint checkpoint;
   checkpoint.time = number();
   checkpoint.steps = 1234567;
-  checkpoint.position = random_vector(24, random);
+  checkpoint.position = random_vector(6, random);
   for (int i = 0; i < 5; ++i) {
     RowNumbers row{};
     std::ranges::generate(row, number);
@@ -54,24 +54,24 @@ inline Checkpoint random_checkpoint() {
     checkpoint.profiles.push_back(profile);
   }
   checkpoint.followers = {{{checkpoint.series[4], checkpoint.series[1]}, {checkpoint.profiles[1]}}, {}};
-  checkpoint.memory.past = {{number(), random_vector(24, random), random_vector(24, random),
-                             random_vector(24, random), random_vector(4, random)},
-                            {number(), random_vector(24, random), {}, random_vector(24, random), {}, {}}};
+  checkpoint.memory.past = {{number(), random_vector(6, random), random_vector(6, random),
+                             random_vector(6, random), random_vector(4, random)},
+                            {number(), random_vector(6, random), {}, random_vector(6, random), {}, {}}};
   checkpoint.memory.order = 3;
   checkpoint.memory.steps_at_order = 2;
   checkpoint.memory.step = number();
   checkpoint.memory.left_over = number();
-  checkpoint.memory.mobility = {random_vector(24, random), 7};
-  checkpoint.memory.load_jacobian = {random_vector(24, random), 5};
+  checkpoint.memory.mobility = {random_vector(6, random), 7};
+  checkpoint.memory.load_jacobian = {random_vector(6, random), 5};
   checkpoint.memory.factored = number();
-  checkpoint.recycled.velocity.inverse = random_vector(25, random).reshaped(5, 5);
+  checkpoint.recycled.velocity.inverse = random_vector(9, random).reshaped(3, 3);
   checkpoint.recycled.velocity.positions = {random_vector(4, random)};
   checkpoint.recycled.traction.solutions = {random_vector(4, random), random_vector(2, random)};
   checkpoint.next_x_g = 4;
   checkpoint.next_time = 6;
   checkpoint.checked = number();
   checkpoint.companion.resize(1);
-  checkpoint.companion[0].position = random_vector(22, random);
+  checkpoint.companion[0].position = random_vector(4, random);
   return checkpoint;
 }
 

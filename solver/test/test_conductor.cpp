@@ -41,14 +41,11 @@ struct Meter {
 
 // int k^m/m! K_1/I_1 dk over positive k.
 double bessel_moment(int m) {
-  const Panels panels = make_panels(graded_edges(0, 200, 1e-4, 2, Graded::first), 12);
-  double sum = 0;
-  for (Eigen::Index i = 0; i < panels.points.size(); ++i) {
-    const double k = panels.points[i];
-    const double ratio = boost::math::cyl_bessel_k(1, k) / boost::math::cyl_bessel_i(1, k);
-    sum += panels.weights[i] * std::exp(m * std::log(k) - std::lgamma(m + 1.0)) * ratio;
-  }
-  return sum;
+  static const Panels panels = make_panels(graded_edges(0, 200, 1e-4, 2, Graded::first), 12);
+  static const Eigen::ArrayXd ratio = panels.points.unaryExpr(
+      [](double k) { return boost::math::cyl_bessel_k(1, k) / boost::math::cyl_bessel_i(1, k); });
+  const Eigen::ArrayXd k = panels.points.array();
+  return (panels.weights.array() * (m * k.log() - std::lgamma(m + 1.0)).exp() * ratio).sum();
 }
 
 // A sphere on the axis of a tube by multipoles. The potential is x + sum b_n (P_n/rho^(n+1) + what the wall adds), n odd.

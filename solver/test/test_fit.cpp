@@ -5,7 +5,7 @@
 #include "fit/fit.hpp"
 #include "law/neo_hookean.hpp"
 #include "law/skalak.hpp"
-#include "motion/motion.hpp"
+#include "motion/march.hpp"
 #include "steady/steady_state.hpp"
 #include <array>
 #include <boost/test/unit_test.hpp>
@@ -83,9 +83,10 @@ BOOST_AUTO_TEST_CASE(the_capsule_of_a_march_is_found) {
   input.accuracy = 1e-5;
   input.capsule.start_x = 0;
   input.pore.shape = PoreShape::tube;
-  input.pore.exit_x = input.pore.entrance_distance = 24;
-  input.until.x_g = 18;
-  const Outcome marched = march(input, {}, {});
+  input.pore.exit_x = 18;
+  input.pore.entrance_distance = 6;
+  input.until.x_g = 12;
+  const Outcome marched = march_once(input, {}, {}, Role::main);
   BOOST_REQUIRE_MESSAGE(marched.status == Status::reached, marched.message);
   const Profile &last = marched.last.profiles.back();
   Contour contour;
