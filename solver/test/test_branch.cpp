@@ -51,7 +51,7 @@ BOOST_AUTO_TEST_CASE(fold_of_a_neo_hookean_capsule) {
   BranchRow folds[2];
   for (const int k : {0, 1}) {
     const Outcome outcome =
-        follow_branch(neo_hookean_case(k == 0 ? 48 : 64), {"flow.capillary_number", 0.3}, {});
+        follow_branch(neo_hookean_case(k == 0 ? 64 : 80), {"flow.capillary_number", 0.3}, {});
     BOOST_TEST((outcome.status == Status::unbounded));
     BOOST_REQUIRE(outcome.folds.size() == 1);
     const BranchRow &fold = outcome.folds[0];

@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_SUITE(fold_curve)
 
 // From a stiff membrane to a softer one: there the curve ends at the fold of that one's own branch.
 BOOST_AUTO_TEST_CASE(ends_at_the_fold_of_another_branch) {
-  const Case stiff = stiff_case(2e-2, 64), soft = stiff_case(1e-2, 64);
+  const Case stiff = stiff_case(2e-2, 88), soft = stiff_case(1e-2, 88);
   const double farthest = 0.3;
   const KeyPath path(flow_key, stiff, farthest), second(bending_key, stiff, soft.membrane.bending_ratio);
   FoldOfBranch fold = fold_of_branch(stiff, path);

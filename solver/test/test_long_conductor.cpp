@@ -42,9 +42,9 @@ BOOST_AUTO_TEST_CASE(folded_rear) {
   Vector position = 0.8 * folded(basis.nodes);
   position.head(n).array() += 0.2;
 
-  const Vector zeta = Vector::LinSpaced(20001, 0, 3.14159265358979);
+  const Vector zeta = Vector::LinSpaced(5001, 0, 3.14159265358979);
   const Vector x = basis.even(zeta, 0, position.head(n)), r = basis.odd(zeta, 0, position.tail(n));
-  constexpr int slices = 4000;
+  constexpr int slices = 1000;
   std::vector<double> outermost(slices, 0);
   const double width = (x.maxCoeff() - x.minCoeff()) / slices;
   for (Eigen::Index k = 0; k < x.size(); ++k) {
