@@ -24,7 +24,8 @@ sed '/physical/,$d' case.toml >branch.toml
 printf '[capsule]\nradius = 0.5\n[flow]\ncapillary_number = 0.05\n' >>branch.toml
 ends 0 branch branch.toml --along flow.capillary_number --to 0.051 --out branch
 ends 0 branch case.toml --along physical.flow_rate --to '0.11 nl/s' --out units
-ends 3 branch branch.toml --along flow.capillary_number --to 0.051 --fold-along capsule.radius --fold-to 0.51 --out fold
+ends 0 branch branch.toml --set membrane.law=neo-hookean --set membrane.bending_ratio=0.02 --set capsule.radius=0.8 \
+  --set flow.capillary_number=0.2 --along flow.capillary_number --to 0.3 --fold-along capsule.radius --fold-to 0.81 --out fold
 ends 0 steady branch.toml --set flow.period=2 --set output.resistance=false --out train
 ends 0 run branch.toml --set until.time=0.1 --set "capsule.start_x=[-2, -4]" --set output.resistance=false --out pair
 grep -Eq '  x_g -[0-9.]+  v_g [0-9.]+  x_g#2 -[0-9.]+  v_g#2 [0-9.]+  pressure drop' log || fail 'the second capsule is not told'
