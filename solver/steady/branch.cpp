@@ -45,7 +45,7 @@ public:
     SteadyRecord record = record_steady(state, linear, gauge_of_state(state), viscosity_ratio_);
     record.row.time = path_.value(part); // a branch has no time: the key's value takes its place
     record.profile.time = record.row.time;
-    const BranchRow point{path_.value(part), record.row, record.further.at("growth_rate")};
+    BranchRow point{path_.value(part), record.row, record.further.at("growth_rate")};
     latest_ = std::move(record);
     if (profile)
       keep_latest();

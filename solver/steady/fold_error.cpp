@@ -34,7 +34,7 @@ Vector second_derivative(SteadySystem &system, const Vector &unknowns, const std
     system.set_parameters(with_number(here, key, value + a * one.value + b * other.value));
     return system.residual(unknowns + a * one.unknowns + b * other.unknowns);
   };
-  const Vector result = (at(h, k) - at(h, -k) - at(-h, k) + at(-h, -k)) / (4 * h * k);
+  Vector result = (at(h, k) - at(h, -k) - at(-h, k) + at(-h, -k)) / (4 * h * k);
   system.set_parameters(here);
   return result;
 }

@@ -26,6 +26,6 @@ std::optional<SteadyState> by_stiff_membrane(const Case &input, const Control &c
 
 // As the membrane gets softer in a flow weaker than the case's, a homotopy has come to a fold: throws "fold" if, followed to
 // the case's stiffness, it lies at a flow weaker than the case's.
-void throw_if_too_strong(const Homotopy &softer, const Case &input, const Control &control);
+void throw_if_too_strong(const Homotopy &homotopy, const Case &input, const Control &control);
 
 } // namespace capsule
