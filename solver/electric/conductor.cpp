@@ -41,6 +41,29 @@ Targets joined(const Targets &first, const Targets &second) {
   return both;
 }
 
+// A kernel at a point from each of the rings of a curve that stays, for densities times area. Panels that are near have the
+// area in their own rule.
+template <class Row>
+void from_rings(const RingKernel &kernel, double x, double r, const Curve &curve, const FixedNearRule &near,
+                Row &&row) {
+  kernel.plain(x, r, rings_of(curve, 0, curve.size()), {row.data()});
+  near.at_near_panels(kernel, x, r, [&](Eigen::Index first, const KernelBlock &block) {
+    row.segment(first, block.cols()) =
+        block.cwiseQuotient(curve.area.segment(first, block.cols()).transpose());
+  });
+}
+
+// The layer of 1 on a curve.
+Vector layer(const RingKernel &kernel, const Targets &points, const Curve &curve, const FixedNearRule &near) {
+  Vector layer(points.size());
+  Eigen::RowVectorXd row(curve.size());
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    from_rings(kernel, points.x[i], points.r[i], curve, near, row);
+    layer[i] = row.dot(curve.area);
+  }
+  return layer;
+}
+
 // The potential on the nodes -> at the quadrature points of all membranes.
 Vector at_panels(const MembraneMesh &mesh, const Vector &potential) {
   Vector values(mesh.points);
@@ -65,10 +88,11 @@ FlowResolution coarser_conductor(FlowResolution resolution) {
 }
 
 // Of the current pi through a part of a sphere.
-Conductor::Electrode Conductor::cap_electrode(Curve cap, double centre_x) {
+Conductor::Electrode Conductor::cap_electrode(Curve cap, double centre_x) const {
   const double field = 1 / (2 * cap.area.sum());
   const double potential = field * distance_from(centre_x, cap);
-  return {std::move(cap), field, potential};
+  const FixedNearRule near(cap, tolerance_);
+  return {std::move(cap), near, field, potential};
 }
 
 Conductor::Conductor(const Pore &pore, const FlowResolution &resolution)
@@ -81,10 +105,10 @@ Conductor::Conductor(const Pore &pore, const FlowResolution &resolution)
     out_ = cap_electrode(cap_behind_exit(far), far.exit_x);
     circle_ = Circle{far.exit_x / 2, 1 + std::min(far.exit_x / 2, 2.0)};
   } else {
-    out_.section = make_outlet(far, tolerance_).curve;
+    out_.section = disc_at(far.exit_x, 1);
+    out_.near = {out_.section, tolerance_};
     whole_.points = joined(whole_.points, {Vector::Constant(1, far.exit_x), Vector::Zero(1)});
   }
-  section_near_ = NearRule(out_.section.panel_points, tolerance_);
 
   const Eigen::Index n = wall.size();
   const NearRule near(wall.panel_points, tolerance_);
@@ -140,31 +164,16 @@ const Conductor::Surface &Conductor::felt_by(const MembraneMesh &mesh, const Vec
 RowMatrix Conductor::response(const Surface &surface, const Targets &points) const {
   const Curve &wall = surface.wall;
   const Eigen::Index n = wall.size();
-  const Rings rings = rings_of(wall, 0, n);
   RowMatrix response(points.size(), n + 1);
-  for (Eigen::Index i = 0; i < points.size(); ++i) {
-    auto row = response.row(i).head(n);
-    ring_dipole.plain(points.x[i], points.r[i], rings, {row.data()});
-    surface.near.at_near_panels(ring_dipole, points.x[i], points.r[i],
-                                [&](Eigen::Index first, const KernelBlock &block) {
-                                  const auto area = wall.area.segment(first, block.cols()).transpose();
-                                  row.segment(first, block.cols()) = block.cwiseQuotient(area);
-                                });
-  }
+  for (Eigen::Index i = 0; i < points.size(); ++i)
+    from_rings(ring_dipole, points.x[i], points.r[i], wall, surface.near, response.row(i).head(n));
   response.col(n) = behind_section(points);
   return response;
 }
 
-// The layer of 1 on a section.
-Vector Conductor::layer(const RingKernel &kernel, const Targets &points, const Curve &section) const {
-  RowMatrix matrix;
-  assemble_layer(kernel, points, section, nullptr, section_near_, matrix);
-  return matrix.rowwise().sum();
-}
-
 // The double layer of 1 on the wall without end: minus the solid angle of the section over 4 pi, none in its plane.
 Vector Conductor::behind_section(const Targets &points) const {
-  const Vector solid_angle = layer(ring_dipole, points, out_.section);
+  const Vector solid_angle = layer(ring_dipole, points, out_.section, out_.near);
   if (circle_)
     return -solid_angle;
   return (points.x.array() == out_.section.x[0]).select(0, -solid_angle);
@@ -172,11 +181,11 @@ Vector Conductor::behind_section(const Targets &points) const {
 
 // What is known of u_0 where the current comes and leaves.
 Vector Conductor::source_of_current(const Targets &points, const Vector &behind_section) const {
-  Vector source = out_.field * layer(ring_source, points, out_.section) -
-                  in_.field * layer(ring_source, points, in_.section);
+  Vector source = out_.field * layer(ring_source, points, out_.section, out_.near) -
+                  in_.field * layer(ring_source, points, in_.section, in_.near);
   if (out_.potential > 0)
     source += out_.potential * behind_section; // in no plane
-  return source - in_.potential * layer(ring_dipole, points, in_.section);
+  return source - in_.potential * layer(ring_dipole, points, in_.section, in_.near);
 }
 
 Vector Conductor::ToWall::of(const Vector &potential, const Vector &on_panels) const {
@@ -255,7 +264,7 @@ Vector Conductor::flux_of_dipoles(const Curve &dipoles) const {
 // The flux of sources of strength 1 on a curve, over 2 pi: the solid angle of the circle over 4 pi.
 double Conductor::flux_of_sources(const Curve &sources) const {
   const Curve disc = disc_at(circle_->x, circle_->radius);
-  return -sources.area.dot(layer(ring_dipole, {sources.x, sources.r}, disc));
+  return -sources.area.dot(layer(ring_dipole, {sources.x, sources.r}, disc, {disc, tolerance_}));
 }
 
 double Conductor::change(const MembraneMesh &mesh, const Vector &position) const {

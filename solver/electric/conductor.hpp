@@ -40,9 +40,10 @@ private:
   // u_0 there from what it is far behind it.
   struct Electrode {
     Curve section;
+    FixedNearRule near;
     double field = 1, potential = 0;
   };
-  static Electrode cap_electrode(Curve cap, double centre_x);
+  Electrode cap_electrode(Curve cap, double centre_x) const;
 
   // Around the tube, in the solid: the flux through it is the tube's.
   struct Circle {
@@ -73,12 +74,10 @@ private:
   Vector source_in_equations() const;
   Vector flux_of_dipoles(const Curve &dipoles) const;
   double flux_of_sources(const Curve &sources) const;
-  Vector layer(const RingKernel &kernel, const Targets &points, const Curve &section) const;
   Vector behind_section(const Targets &points) const;
   Vector source_of_current(const Targets &points, const Vector &behind_section) const;
 
-  double tolerance_; // of near panels and of potentials
-  NearRule section_near_;
+  double tolerance_;             // of near panels and of potentials
   Electrode out_, in_;           // behind the section out_ the wall has no end; none closes a tube
   std::optional<Circle> circle_; // of the last equation, which is that of a point otherwise
   Surface whole_;
