@@ -97,17 +97,35 @@ Matrix waves(bool cosine, const Vector &points, Eigen::Index first, Eigen::Index
   return values;
 }
 
-// Derivatives of cos(k zeta) when quarter_turns = 0, of sin(k zeta) when it is -1.
-Matrix waves(const Vector &points, Eigen::Index n, int first_k, int quarter_turns, int derivative) {
-  const int turn = (quarter_turns + derivative + 4) % 4;
-  Matrix values = waves(turn % 2 == 0, points, first_k, n);
-  if (derivative == 0 && turn != 1 && turn != 2)
-    return values;
-  for (Eigen::Index column = 0; column < n; ++column)
-    values.col(column) *=
-        std::pow(static_cast<double>(first_k + column), derivative) * (turn == 1 || turn == 2 ? -1 : 1);
+// Their series.
+Vector series(bool cosine, const Vector &points, Eigen::Index first, const Vector &coefficients) {
+  Vector values(points.size());
+  for_each_block(points, [&](Eigen::Index begin, Eigen::Index size, Turning<Block> turning) {
+    Block sum = Block::Zero();
+    for (Eigen::Index k = 0; k < first; ++k)
+      turning.turn();
+    for (const double coefficient : coefficients) {
+      sum += coefficient * (cosine ? turning.c : turning.s);
+      turning.turn();
+    }
+    values.segment(begin, size) = sum.head(size);
+  });
   return values;
 }
+
+// A derivative of cos(k zeta) where quarter_turns is 0, of sin(k zeta) where it is -1, k = first, first + 1 ...: factors times
+// cosines or sines.
+struct DifferentiatedWaves {
+  bool cosine;
+  Vector factors;
+  DifferentiatedWaves(Eigen::Index count, Eigen::Index first, int quarter_turns, int derivative) {
+    const int turn = (quarter_turns + derivative + 4) % 4;
+    cosine = turn % 2 == 0;
+    const auto k =
+        Eigen::ArrayXd::LinSpaced(count, static_cast<double>(first), static_cast<double>(first + count - 1));
+    factors = (turn == 1 || turn == 2 ? -1 : 1) * k.pow(derivative);
+  }
+};
 
 // ---- Cubic splines ----
 
@@ -194,12 +212,25 @@ Vector bspline_integrals(const Vector &nodes) {
 
 } // namespace
 
-Matrix cosines(const Vector &points, Eigen::Index first, Eigen::Index count) {
-  return waves(true, points, first, count);
+Vector cosine_series(const Vector &coefficients, const Vector &points) {
+  return series(true, points, 0, coefficients);
 }
 
-Matrix sines(const Vector &points, Eigen::Index first, Eigen::Index count) {
-  return waves(false, points, first, count);
+Vector sine_series(const Vector &coefficients, const Vector &points) {
+  return series(false, points, 1, coefficients);
+}
+
+Vector cosine_moments(const Vector &values, const Vector &points, Eigen::Index count) {
+  Eigen::Array<double, together, Eigen::Dynamic> sums = decltype(sums)::Zero(together, count);
+  for_each_block(points, [&](Eigen::Index begin, Eigen::Index size, Turning<Block> turning) {
+    Block here = Block::Zero();
+    here.head(size) = values.segment(begin, size);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      sums.col(k) += here * turning.c;
+      turning.turn();
+    }
+  });
+  return sums.colwise().sum();
 }
 
 MeridianBasis spectral_basis(int nodes) {
@@ -208,8 +239,8 @@ MeridianBasis spectral_basis(int nodes) {
   set_gauss_legendre(nodes, basis);
   // Both matrices are as well conditioned as those of the cosine and sine transforms, whose nodes are close
   // by.
-  basis.even_from_nodes = lu_inverse(waves(basis.nodes, nodes, 0, 0, 0));
-  basis.odd_from_nodes = lu_inverse(waves(basis.nodes, nodes, 1, -1, 0));
+  basis.even_from_nodes = lu_inverse(waves(true, basis.nodes, 0, nodes));
+  basis.odd_from_nodes = lu_inverse(waves(false, basis.nodes, 1, nodes));
   return basis;
 }
 
@@ -225,23 +256,31 @@ MeridianBasis spline_basis(int elements) {
 }
 
 Matrix MeridianBasis::even(const Vector &points, int derivative) const {
-  return spline ? spline_values(nodes, even_from_nodes, points, derivative)
-                : Matrix(waves(points, size(), 0, 0, derivative) * even_from_nodes);
+  if (spline)
+    return spline_values(nodes, even_from_nodes, points, derivative);
+  const DifferentiatedWaves of(size(), 0, 0, derivative);
+  return waves(of.cosine, points, 0, size()) * of.factors.asDiagonal() * even_from_nodes;
 }
 
 Matrix MeridianBasis::odd(const Vector &points, int derivative) const {
-  return spline ? spline_values(nodes, odd_from_nodes, points, derivative)
-                : Matrix(waves(points, size(), 1, -1, derivative) * odd_from_nodes);
+  if (spline)
+    return spline_values(nodes, odd_from_nodes, points, derivative);
+  const DifferentiatedWaves of(size(), 1, -1, derivative);
+  return waves(of.cosine, points, 1, size()) * of.factors.asDiagonal() * odd_from_nodes;
 }
 
 Vector MeridianBasis::even(const Vector &points, int derivative, const Vector &at_nodes) const {
-  return spline ? Vector(even(points, derivative) * at_nodes)
-                : Vector(waves(points, size(), 0, 0, derivative) * (even_from_nodes * at_nodes));
+  if (spline)
+    return even(points, derivative) * at_nodes;
+  const DifferentiatedWaves of(size(), 0, 0, derivative);
+  return series(of.cosine, points, 0, of.factors.cwiseProduct(even_from_nodes * at_nodes));
 }
 
 Vector MeridianBasis::odd(const Vector &points, int derivative, const Vector &at_nodes) const {
-  return spline ? Vector(odd(points, derivative) * at_nodes)
-                : Vector(waves(points, size(), 1, -1, derivative) * (odd_from_nodes * at_nodes));
+  if (spline)
+    return odd(points, derivative) * at_nodes;
+  const DifferentiatedWaves of(size(), 1, -1, derivative);
+  return series(of.cosine, points, 1, of.factors.cwiseProduct(odd_from_nodes * at_nodes));
 }
 
 Meridian::Meridian(const MeridianBasis &basis, const Vector &position)

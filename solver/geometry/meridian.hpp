@@ -49,9 +49,11 @@ private:
   Vector x_, r_; // coefficients
 };
 
-// cos(k zeta) and sin(k zeta) at points, a column for each k = first ... first + count - 1.
-Matrix cosines(const Vector &points, Eigen::Index first, Eigen::Index count);
-Matrix sines(const Vector &points, Eigen::Index first, Eigen::Index count);
+// Series of cos(k zeta), k = 0, 1 ..., and of sin(k zeta), k = 1, 2 ..., at points.
+Vector cosine_series(const Vector &coefficients, const Vector &points);
+Vector sine_series(const Vector &coefficients, const Vector &points);
+// Sums over the points of values times cos(k zeta), k < count.
+Vector cosine_moments(const Vector &values, const Vector &points, Eigen::Index count);
 
 MeridianBasis spectral_basis(int nodes);
 MeridianBasis spline_basis(int elements);

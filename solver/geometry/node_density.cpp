@@ -20,19 +20,17 @@ Vector midpoints(Eigen::Index parts) {
 struct AngleMap {
   AngleMap(const MeridianBasis &basis, const Vector &node_angle)
       : rest(basis.odd_from_nodes * (node_angle - basis.nodes)) {}
-  Eigen::ArrayXd value(const Eigen::ArrayXd &zeta) const {
-    return zeta + (sines(zeta, 1, rest.size()) * rest).array();
-  }
+  Eigen::ArrayXd value(const Eigen::ArrayXd &zeta) const { return zeta + sine_series(rest, zeta).array(); }
   Eigen::ArrayXd slope(const Eigen::ArrayXd &zeta) const {
-    const Eigen::Index n = rest.size();
-    const Vector k = Vector::LinSpaced(n, 1, static_cast<double>(n));
-    return 1 + (cosines(zeta, 1, n) * k.cwiseProduct(rest)).array();
+    Vector slopes(rest.size() + 1);
+    slopes << 0, waves().cwiseProduct(rest);
+    return 1 + cosine_series(slopes, zeta).array();
   }
   Eigen::ArrayXd bend(const Eigen::ArrayXd &zeta) const {
-    const Eigen::Index n = rest.size();
-    const Vector k = Vector::LinSpaced(n, 1, static_cast<double>(n));
-    return -(sines(zeta, 1, n) * k.cwiseProduct(k).cwiseProduct(rest)).array();
+    return -sine_series(waves().array().square() * rest.array(), zeta).array();
   }
+  // k of the series.
+  Vector waves() const { return Vector::LinSpaced(rest.size(), 1, static_cast<double>(rest.size())); }
   Vector rest;
 };
 
@@ -70,8 +68,7 @@ Vector density_logarithm(const MeridianBasis &basis, const Vector &node_angle, c
       by_angle(basis.even(zeta, 1, position.head(n)), basis.even(zeta, 2, position.head(n))) +
       by_angle(basis.odd(zeta, 1, position.tail(n)), basis.odd(zeta, 2, position.tail(n)));
   const Eigen::ArrayXd density = 0.5 * (1 + squares / squares.minCoeff()).log();
-  Vector coefficients =
-      cosines(map.value(zeta), 0, waves).transpose() * (density * slope * 2 / points).matrix();
+  Vector coefficients = cosine_moments(density * slope * 2 / points, map.value(zeta), waves);
   coefficients[0] /= 2;
   for (Eigen::Index k = 0; k < waves; ++k)
     coefficients[k] *= std::exp(-std::pow(static_cast<double>(k) / shortest_wave, 2));
@@ -82,16 +79,14 @@ Vector density_logarithm(const MeridianBasis &basis, const Vector &node_angle, c
 Vector angles_of_density(const Vector &logarithm, const Vector &zeta) {
   constexpr Eigen::Index waves = 256, points = 1024;
   const Vector angle = midpoints(points);
-  const Vector density = (cosines(angle, 0, logarithm.size()) * logarithm).array().exp();
-  Vector parts = cosines(angle, 0, waves).transpose() * density;
+  const Vector density = cosine_series(logarithm, angle).array().exp();
+  Vector parts = cosine_moments(density, angle, waves);
   parts *= 2 / parts[0];
   parts[0] = 1;
-  Vector integrals = parts;
-  integrals.tail(waves - 1).array() /= Eigen::ArrayXd::LinSpaced(waves - 1, 1, waves - 1);
-  integrals[0] = 0;
+  const Vector integrals = parts.tail(waves - 1).array() / Eigen::ArrayXd::LinSpaced(waves - 1, 1, waves - 1);
   return inverted(
-      [&](const Eigen::ArrayXd &a) -> Eigen::ArrayXd { return a + (sines(a, 0, waves) * integrals).array(); },
-      [&](const Eigen::ArrayXd &a) -> Eigen::ArrayXd { return cosines(a, 0, waves) * parts; }, zeta.array());
+      [&](const Eigen::ArrayXd &a) -> Eigen::ArrayXd { return a + sine_series(integrals, a).array(); },
+      [&](const Eigen::ArrayXd &a) -> Eigen::ArrayXd { return cosine_series(parts, a); }, zeta.array());
 }
 
 } // namespace
