@@ -27,7 +27,7 @@ bool has_scale(const std::optional<PhysicalUnit> &unit, const Scales &scales);
 enum class ErrorEstimate {
   none,
   of_marches,     // by the difference of two marches; in a steady state it has none
-  of_all,         // by the difference of two marches, or of a steady state on two meshes
+  of_all,         // by the difference of two marches, or of a steady state on several meshes
   by_value_itself // it is zero in the exact motion: its value is its error
 };
 

@@ -76,11 +76,10 @@ Vector fold_near(SteadySystem &system, const Vector &unknowns, const std::string
 // Guesses on fewer nodes and, of a train, with coarser walls.
 std::vector<SteadyState> coarser_guesses(const SteadyState &state) {
   constexpr double fewer = 0.75;
-  const auto nodes = static_cast<double>(state.system->nodes());
-  std::vector<SteadyState> guesses{moved_to_fewer_nodes(state, std::max(3, static_cast<int>(fewer * nodes)))};
+  std::vector<SteadyState> guesses{moved_to_coarser(state, fewer, 1)};
   if (state.system->input().flow.period > 0)
     for (const double longer : longer_panels)
-      guesses.push_back(moved_to_coarser_wall(state, longer));
+      guesses.push_back(moved_to_coarser(state, 1, longer));
   return guesses;
 }
 

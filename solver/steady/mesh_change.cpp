@@ -112,30 +112,22 @@ SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state, cons
   }
 }
 
-SteadyState moved_to_fewer_nodes(const SteadyState &state, int nodes) {
-  const Membrane &membrane = state.system->membrane();
+SteadyState moved_to_coarser(const SteadyState &state, double share, double longer) {
+  const SteadySystem &system = *state.system;
+  const Membrane &membrane = system.membrane();
+  const int nodes = std::max(3, static_cast<int>(share * static_cast<double>(system.nodes())));
   const Vector even = spectral_basis(nodes).nodes;
   const Vector angles = even + membrane.basis.odd(even, 0, membrane.node_angle - membrane.basis.nodes);
-  const Case &input = state.system->input();
-  Resolution resolution = resolution_of(input, nodes);
-  resolution.flow = state.system->resolution().flow;
-  const double tip = state.unknowns.head(state.system->nodes()).cwiseAbs().maxCoeff();
-  const auto system = std::make_shared<SteadySystem>(input, resolution, angles, tip);
-  return {system, moved_to(*system, *state.system, state.unknowns)};
-}
-
-SteadyState moved_to_coarser_wall(const SteadyState &state, double longer) {
-  const SteadySystem &system = *state.system;
-  Resolution resolution = system.resolution();
+  Resolution resolution = resolution_of(system.input(), nodes);
+  resolution.flow = system.resolution().flow;
   resolution.flow.wall_panel *= longer;
   const double tip = state.unknowns.head(system.nodes()).cwiseAbs().maxCoeff();
-  const auto coarser =
-      std::make_shared<SteadySystem>(system.input(), resolution, system.membrane().node_angle, tip);
-  return {coarser, state.unknowns};
+  const auto coarser = std::make_shared<SteadySystem>(system.input(), resolution, angles, tip);
+  return {coarser, moved_to(*coarser, system, state.unknowns)};
 }
 
-SteadyState on_coarser_wall(const SteadyState &state, double longer) {
-  SteadyState moved = moved_to_coarser_wall(state, longer);
+SteadyState on_coarser(const SteadyState &state, double share, double longer) {
+  SteadyState moved = moved_to_coarser(state, share, longer);
   moved.unknowns = solve_steady(*moved.system, moved.unknowns);
   return moved;
 }

@@ -34,10 +34,9 @@ Vector moved_to(const SteadySystem &to, const SteadySystem &from, const Vector &
 SteadyState moved_to_mesh(const Case &input, int nodes, const SteadyState &state);
 // The state itself on so many nodes; if need be by way of a stiffer membrane.
 SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state, const Control &control = {});
-// A guess on fewer nodes, spread as its own are, whatever they suit.
-SteadyState moved_to_fewer_nodes(const SteadyState &state, int nodes);
-// The state itself on its own nodes, in a tube whose panels are so many times longer; the other is the guess for that.
-SteadyState moved_to_coarser_wall(const SteadyState &state, double longer);
-SteadyState on_coarser_wall(const SteadyState &state, double longer);
+// The state itself on a share of its nodes, spread as its own are, whatever they suit, in a tube whose panels are so many times
+// longer; the other is the guess for that.
+SteadyState on_coarser(const SteadyState &state, double share, double longer);
+SteadyState moved_to_coarser(const SteadyState &state, double share, double longer);
 
 } // namespace capsule

@@ -50,21 +50,27 @@ SteadyRecord measure(const SteadyState &state, const Gauge &gauge) {
   return record;
 }
 
-// Where no finer mesh is asked for, nothing tells whether the shape is resolved. If it is not, one coarser mesh may agree by
-// accident.
-constexpr std::array fewer_nodes{0.875, 0.75};
-
 // Its errors by states on coarser meshes, the last of them `coarse`, and, of a train, by those with coarser walls.
 void estimate_errors(RefinedState &refined, const SeriesRow &row, SteadyState coarse,
                      std::vector<SeriesRow> rows) {
   if (refined.state.system->input().flow.period > 0) {
     refined.coarser = {std::move(coarse)};
     for (const double longer : longer_panels) {
-      refined.coarser.push_back(on_coarser_wall(refined.state, longer));
+      refined.coarser.push_back(on_coarser(refined.state, 1, longer));
       rows.push_back(row_of(refined.coarser.back()));
     }
   }
   refined.error_estimate = errors_of(row, rows);
+}
+
+// One coarser mesh may agree by accident; in one of many quantities it often does. The second one has a coarser wall, too.
+SteadyState between(const Case &input, const SteadyState &fine) {
+  constexpr double share = 0.875;
+  try {
+    return on_coarser(fine, share, longer_panels[1]);
+  } catch (const NumericsFailure &) {
+    return on_mesh(input, static_cast<int>(share * static_cast<double>(fine.system->nodes())), fine);
+  }
 }
 
 // Throws NumericsFailure, which says that a coarser mesh has a state.
@@ -105,6 +111,7 @@ std::map<std::string, double> errors_of(const SeriesRow &fine, const std::vector
       error = of_quadrature(quantity.value);
       for (const SeriesRow &coarse : coarser)
         error += std::abs(value - coarse.*quantity.value);
+      error *= error_safety;
     }
   }
   return errors;
@@ -121,14 +128,11 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
   refined.state.system->require_stiffness(refined.state.unknowns);
   SeriesRow row = row_of(refined.state);
   if (given || finer_mesh(nodes) > most_nodes) { // no finer mesh: coarser ones tell the error
-    std::vector<SeriesRow> coarse;
-    SteadyState coarser;
-    for (const double fewer : fewer_nodes) {
-      coarser = on_mesh(input, std::max(3, static_cast<int>(fewer * nodes)), refined.state);
-      coarse.push_back(row_of(coarser));
-    }
-    estimate_errors(refined, row, coarser, coarse);
-    if (!given && !agree(row, coarse.back(), input.accuracy))
+    const int fewer = std::max(3, nodes * 3 / 4);
+    const SteadyState coarser = on_mesh(input, fewer, refined.state);
+    const SeriesRow coarse = row_of(coarser);
+    estimate_errors(refined, row, coarser, {coarse, row_of(between(input, refined.state))});
+    if (!given && !agree(row, coarse, input.accuracy))
       refined.warning = with_physical_keys(poorly_resolved(nodes), input);
     return refined;
   }
@@ -143,7 +147,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
     const bool enough = agree(row, before, input.accuracy);
     if (!enough && finer_mesh(nodes) <= most_nodes)
       continue;
-    estimate_errors(refined, row, coarser, {before});
+    estimate_errors(refined, row, coarser, {before, row_of(between(input, refined.state))});
     if (!enough)
       refined.warning = with_physical_keys(poorly_resolved(nodes), input);
     return refined;

@@ -35,7 +35,9 @@ SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Lineari
 Gauge gauge_of(const SteadySystem &system);
 
 // Errors of the finest of several meshes: its differences from coarser ones, and the quadrature's error, which all may
-// share and which shows between the two pressure drops. The latter as a part of any quantity.
+// share and which shows between the two pressure drops; times a factor for what agrees by accident (paper-notes/methods.md).
+// The quadrature's alone as a part of any quantity.
+inline constexpr double error_safety = 2;
 std::map<std::string, double> errors_of(const SeriesRow &fine, const std::vector<SeriesRow> &coarser);
 double relative_error_of_quadrature(const SeriesRow &row);
 // Of a state, without rates.
