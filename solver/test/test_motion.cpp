@@ -269,9 +269,9 @@ BOOST_AUTO_TEST_CASE(wrinkles_stop_a_membrane_without_bending_stiffness) {
 BOOST_AUTO_TEST_CASE(wrinkles_on_chosen_nodes_begin_again_on_more) {
   Case physics;
   physics.accuracy = 1e-2;
-  physics.pore.exit_x = 7;
+  physics.pore.exit_x = 6;
   physics.capsule.radius = 0.8;
-  physics.capsule.start_x = -2.5;
+  physics.capsule.start_x = -1.5;
   physics.flow.capillary_number = 0.12;
   physics.membrane.bending_ratio = 1e-6; // wrinkles on any mesh
   physics.until.x_g = 4;
@@ -328,7 +328,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_resolved_begins_again_twice) {
   physics.accuracy = 1e-2;
   physics.mesh.membrane = 0;
   physics.time.tolerance = 0;
-  physics.until.time = 0.05;
+  physics.until.time = 0.01;
   const int chosen = choose_resolution(physics).membrane_nodes;
   const auto after_failures = [&](int failures, const char *kind) {
     Control control;
@@ -402,7 +402,7 @@ BOOST_AUTO_TEST_CASE(contact_between_the_nodes_is_seen) {
 BOOST_AUTO_TEST_CASE(a_march_that_hardly_goes_on_is_stopped) {
   Case physics;
   physics.accuracy = 1e-3;
-  physics.pore.exit_x = 8;
+  physics.pore.exit_x = 5;
   physics.capsule.radius = 1.1;
   physics.capsule.start_x = -2.5;
   physics.membrane.law = skalak;

@@ -17,6 +17,7 @@ Case neo_hookean_capsule(double radius, double aspect_ratio, double flow, double
   Case physics = capsule_case(radius, aspect_ratio, neo_hookean, bending_ratio);
   physics.flow.capillary_number = flow;
   physics.mesh.membrane = nodes;
+  physics.accuracy = 1e-3;
   return physics;
 }
 

@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(rigid_limit) {
     const Case physics = with(in_a_tube({skalak, {1}}, 0.8, {0.9, -0.9}), [&](Case &capsule) {
       capsule.flow.capillary_number = flow;
       capsule.until.time = 0.2;
-      capsule.mesh.membrane = 48;
+      capsule.mesh.membrane = 40;
     });
     const Outcome outcome = march_once(physics, {}, {}, Role::main);
     BOOST_REQUIRE_MESSAGE((outcome.status == Status::reached), outcome.message);
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(far_apart) {
   BOOST_TEST(std::abs(of_pair.pressure_shares[0] - of_one.pressure_drop) < 1e-5);
 }
 
-// Across gaps that are much shorter than a panel velocities are those of a mesh three times as fine, on which panels are
+// Across gaps that are much shorter than a panel velocities are those of a mesh twice as fine, on which panels are
 // shorter. The velocity of a liquid in a gap is smooth where the membranes' loads are.
 BOOST_AUTO_TEST_CASE(narrow_gaps) {
   for (const double gap : {0.2, 0.05, 0.01}) {
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(narrow_gaps) {
           });
       return make_dynamics(physics);
     };
-    const Dynamics usual = on_mesh(0, 1e-4), fine = on_mesh(240, 1e-7);
+    const Dynamics usual = on_mesh(0, 1e-4), fine = on_mesh(160, 1e-6);
     const auto speeds_and_shares = [](const Dynamics &dynamics) {
       const Vector position = stretched(dynamics, 0.97);
       const FlowState state = dynamics.report(position, true);
