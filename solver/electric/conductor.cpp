@@ -41,12 +41,11 @@ Targets joined(const Targets &first, const Targets &second) {
   return both;
 }
 
-// A kernel at a point from each of the rings of a curve that stays, for densities times area. Panels that are near have the
-// area in their own rule.
+// In a row of kernels at a point from the rings of a curve that stays, for densities times area, those of near panels, whose
+// own rule has the area.
 template <class Row>
-void from_rings(const RingKernel &kernel, double x, double r, const Curve &curve, const FixedNearRule &near,
-                Row &&row) {
-  kernel.plain(x, r, rings_of(curve, 0, curve.size()), {row.data()});
+void replace_near(const RingKernel &kernel, double x, double r, const Curve &curve, const FixedNearRule &near,
+                  Row &row) {
   near.at_near_panels(kernel, x, r, [&](Eigen::Index first, const KernelBlock &block) {
     row.segment(first, block.cols()) =
         block.cwiseQuotient(curve.area.segment(first, block.cols()).transpose());
@@ -58,7 +57,8 @@ Vector layer(const RingKernel &kernel, const Targets &points, const Curve &curve
   Vector layer(points.size());
   Eigen::RowVectorXd row(curve.size());
   for (Eigen::Index i = 0; i < points.size(); ++i) {
-    from_rings(kernel, points.x[i], points.r[i], curve, near, row);
+    kernel.plain(points.x[i], points.r[i], rings_of(curve, 0, curve.size()), {row.data()});
+    replace_near(kernel, points.x[i], points.r[i], curve, near, row);
     layer[i] = row.dot(curve.area);
   }
   return layer;
@@ -160,17 +160,6 @@ const Conductor::Surface &Conductor::felt_by(const MembraneMesh &mesh, const Vec
   return felt_;
 }
 
-// Potential at points off the wall from the surface's unknowns.
-RowMatrix Conductor::response(const Surface &surface, const Targets &points) const {
-  const Curve &wall = surface.wall;
-  const Eigen::Index n = wall.size();
-  RowMatrix response(points.size(), n + 1);
-  for (Eigen::Index i = 0; i < points.size(); ++i)
-    from_rings(ring_dipole, points.x[i], points.r[i], wall, surface.near, response.row(i).head(n));
-  response.col(n) = behind_section(points);
-  return response;
-}
-
 // The double layer of 1 on the wall without end: minus the solid angle of the section over 4 pi, none in its plane.
 Vector Conductor::behind_section(const Targets &points) const {
   const Vector solid_angle = layer(ring_dipole, points, out_.section, out_.near);
@@ -188,40 +177,54 @@ Vector Conductor::source_of_current(const Targets &points, const Vector &behind_
   return source - in_.potential * layer(ring_dipole, points, in_.section, in_.near);
 }
 
-Vector Conductor::ToWall::of(const Vector &potential, const Vector &on_panels) const {
-  Vector result = from_nodes * potential;
+Vector Conductor::Coupling::at_wall(const Vector &potential, const Vector &on_panels) const {
+  Vector result = from_nodes.transpose() * area.cwiseProduct(potential);
   if (!near.empty())
     result(near) = from_panels * on_panels;
   return result;
 }
 
-Conductor::ToWall Conductor::to_wall(const Surface &surface, const MembraneMesh &mesh,
-                                     const MembraneShape &shape) const {
+// The wall's points and the nodes are rings and targets at once. The other equations, a point or a circle, are rows of
+// their own.
+Conductor::Coupling Conductor::couple(const Surface &surface, const MembraneMesh &mesh,
+                                      const MembraneShape &shape) const {
+  const Curve &wall = surface.wall, &nodes = shape.nodes;
   const Targets &points = surface.points;
+  const Eigen::Index n = wall.size();
+  const Rings wall_rings = rings_of(wall, 0, n), node_rings = rings_of(nodes, 0, mesh.nodes);
+  Coupling result{
+      RowMatrix(mesh.nodes, n + 1), RowMatrix(mesh.nodes, surface.inverse.cols()), nodes.area, {}, {}};
+  for (Eigen::Index i = 0; i < mesh.nodes; ++i) {
+    auto to_node = result.to_nodes.row(i);
+    ring_mutual_dipoles(nodes.x[i], nodes.r[i], nodes.normal_x[i], nodes.normal_r[i], wall_rings,
+                        to_node.data(), result.from_nodes.row(i).data());
+    replace_near(ring_dipole, nodes.x[i], nodes.r[i], wall, surface.near, to_node);
+  }
+  result.to_nodes.col(n) = behind_section(shape.targets);
+  for (Eigen::Index i = n; i < points.size(); ++i) {
+    Vector from_nodes(mesh.nodes);
+    ring_dipole.plain(points.x[i], points.r[i], node_rings, {from_nodes.data()});
+    result.from_nodes.col(i) = from_nodes;
+  }
+
   std::vector<NodesNearby> membranes;
   for (std::size_t k = 0; k < mesh.parts.size(); ++k)
     membranes.emplace_back(mesh, shape, k);
   const auto near = [&](double x, double r) {
-    return std::ranges::any_of(membranes, [&](const NodesNearby &nodes) { return nodes.hold(x, r); });
+    return std::ranges::any_of(membranes, [&](const NodesNearby &membrane) { return membrane.hold(x, r); });
   };
-  const Rings rings = rings_of(shape.nodes, 0, mesh.nodes);
-  ToWall result{RowMatrix::Zero(surface.inverse.cols(), mesh.nodes), {}, {}};
   for (Eigen::Index i = 0; i < points.size(); ++i)
     if (near(points.x[i], points.r[i]))
       result.near.push_back(i);
-    else
-      ring_dipole.plain(points.x[i], points.r[i], rings, {result.from_nodes.row(i).data()});
-  result.from_nodes.array().rowwise() *= shape.nodes.area.transpose().array();
   assemble_layer(ring_dipole, {points.x(result.near), points.r(result.near)}, shape.panels, nullptr,
                  mesh.near, result.from_panels);
   if (!circle_)
     return result;
+  result.from_nodes.rightCols(1) = flux_of_dipoles(nodes).cwiseQuotient(nodes.area);
   if (near(circle_->x, circle_->radius)) {
     result.near.push_back(points.size());
     result.from_panels.conservativeResize(result.from_panels.rows() + 1, shape.panels.size());
     result.from_panels.bottomRows(1) = flux_of_dipoles(shape.panels).transpose();
-  } else {
-    result.from_nodes.bottomRows(1) = flux_of_dipoles(shape.nodes).transpose();
   }
   return result;
 }
@@ -270,10 +273,10 @@ double Conductor::flux_of_sources(const Curve &sources) const {
 double Conductor::change(const MembraneMesh &mesh, const Vector &position) const {
   const MembraneShape shape = shape_at(mesh, position);
   const Surface &wall = felt_by(mesh, position);
-  const RowMatrix from_wall = response(wall, shape.targets);
   RowMatrix to_nodes;
   assemble_layer(ring_dipole, shape.targets, shape.panels, &mesh.parts[0].self, mesh.near, to_nodes);
-  const ToWall to_wall = this->to_wall(wall, mesh, shape);
+  const Coupling coupling = couple(wall, mesh, shape);
+  const RowMatrix &from_wall = coupling.to_nodes;
 
   Vector base = shape.targets.x;
   if (wall.base.size() > 0)
@@ -287,7 +290,7 @@ double Conductor::change(const MembraneMesh &mesh, const Vector &position) const
   const auto apply = [&](const Vector &potential) -> Vector {
     const Vector on_panels = at_panels(mesh, potential);
     return 0.5 * potential + to_nodes * on_panels -
-           from_wall * (wall.inverse * to_wall.of(potential, on_panels));
+           from_wall * (wall.inverse * coupling.at_wall(potential, on_panels));
   };
   const Vector potential = solve_recycled(
       position, tolerance_, start,
@@ -298,7 +301,7 @@ double Conductor::change(const MembraneMesh &mesh, const Vector &position) const
           system.col(k) = apply(Vector::Unit(mesh.nodes, k));
         return system;
       });
-  return -wall.inverse.row(wall.wall.size()).dot(to_wall.of(potential, at_panels(mesh, potential)));
+  return -wall.inverse.row(wall.wall.size()).dot(coupling.at_wall(potential, at_panels(mesh, potential)));
 }
 
 } // namespace capsule

@@ -60,17 +60,19 @@ private:
     Vector base;       // unknowns of u_0; empty where u_0 = x
   };
 
-  // The left sides of the equations from the potential of membranes.
-  struct ToWall {
-    RowMatrix from_nodes;           // by the rule on the nodes
+  // Between surface and membranes.
+  struct Coupling {
+    RowMatrix to_nodes;   // the surface's unknowns -> potential at the nodes
+    RowMatrix from_nodes; // nodes x equations: dipoles at the nodes -> left sides, by the rule on the nodes
+    Vector area;          // its weights
     std::vector<Eigen::Index> near; // equations that are too near for it
     RowMatrix from_panels;          // these, from the quadrature points
-    Vector of(const Vector &potential, const Vector &on_panels) const;
+    // The left sides from the membranes' potential.
+    Vector at_wall(const Vector &potential, const Vector &on_panels) const;
   };
 
   const Surface &felt_by(const MembraneMesh &mesh, const Vector &position) const;
-  RowMatrix response(const Surface &surface, const Targets &points) const;
-  ToWall to_wall(const Surface &surface, const MembraneMesh &mesh, const MembraneShape &shape) const;
+  Coupling couple(const Surface &surface, const MembraneMesh &mesh, const MembraneShape &shape) const;
   Vector source_in_equations() const;
   Vector flux_of_dipoles(const Curve &dipoles) const;
   double flux_of_sources(const Curve &sources) const;

@@ -135,17 +135,17 @@ struct Source {
 struct Dipole {
   static constexpr int dimension = 1;
   static constexpr bool takes_normal = true;
-  [[gnu::always_inline]] static double value(const Pair &p, const Normal &normal, double d,
+  [[gnu::always_inline]] static double value(const Pair &p, double r0, const Normal &normal, double d,
                                              double e_over_d2) {
-    return std::numbers::inv_pi * p.over_R * (normal.along * e_over_d2 + 2 * p.r0 * normal.r * d * p.over_R2);
+    return std::numbers::inv_pi * p.over_R * (normal.along * e_over_d2 + 2 * r0 * normal.r * d * p.over_R2);
   }
   [[gnu::always_inline]] static double value(const Pair &p, const Normal &normal,
                                              const EllipticIntegrals &i) {
-    return value(p, normal, i.d, (i.b + p.m1 * i.d) * p.over_d2);
+    return value(p, p.r0, normal, i.d, (i.b + p.m1 * i.d) * p.over_d2);
   }
   [[gnu::always_inline]] static double value(const Pair &p, const Normal &normal,
                                              const EllipticLogarithms &i) {
-    return value(p, normal, i.d, (i.b_over_m1 + i.d) * p.over_R2);
+    return value(p, p.r0, normal, i.d, (i.b_over_m1 + i.d) * p.over_R2);
   }
 };
 
@@ -180,6 +180,26 @@ struct Split : Kernel {
   }
 };
 
+// The normals of a ring and of the target's own, each with e from the other one.
+struct Normals {
+  Normal ring;
+  Normal target;
+};
+
+// One dipole a part.
+struct BothDipoles {
+  static constexpr std::size_t parts = 2;
+  static constexpr int dimension = 1;
+  static constexpr bool takes_normal = true;
+  [[gnu::always_inline]] static void evaluate(const Pair &p, const Normals &normals,
+                                              const std::array<KernelRow, parts> &out, int k) {
+    const EllipticIntegrals i = elliptic_integrals(p.m, p.m1, p.ln_m1);
+    const double e_over_d2 = (i.b + p.m1 * i.d) * p.over_d2;
+    store(out[0], k, Dipole::value(p, p.r0, normals.ring, i.d, e_over_d2));
+    store(out[1], k, Dipole::value(p, p.r, normals.target, i.d, e_over_d2));
+  }
+};
+
 // Where a target and its rings come from. By reference: vector loads of copies that were just made number by number
 // would wait for them.
 struct ByPosition {
@@ -191,6 +211,17 @@ struct ByPosition {
   }
   [[gnu::always_inline]] Normal normal(const Pair &p, int k) const {
     return {p.dx * rings.normal_x[k] + p.dr * rings.normal_r[k], rings.normal_r[k]};
+  }
+};
+
+struct ByPositionWithNormal {
+  ByPosition place;
+  double normal_x0;
+  double normal_r0;
+  const Rings &rings;
+  [[gnu::always_inline]] Pair pair(int k) const { return place.pair(k); }
+  [[gnu::always_inline]] Normals normal(const Pair &p, int k) const {
+    return {place.normal(p, k), {-(p.dx * normal_x0 + p.dr * normal_r0), normal_r0}};
   }
 };
 
@@ -210,11 +241,11 @@ template <class Kernel, class Source>
 [[gnu::always_inline]] inline void evaluate(const Source &source, int ring,
                                             const std::array<KernelRow, Kernel::parts> &out, int k) {
   const Pair pair = source.pair(ring);
-  Normal normal{0, 0};
   if constexpr (Kernel::takes_normal) {
-    normal = source.normal(pair, ring);
+    Kernel::evaluate(pair, source.normal(pair, ring), out, k);
+  } else {
+    Kernel::evaluate(pair, {0, 0}, out, k);
   }
-  Kernel::evaluate(pair, normal, out, k);
 }
 
 // Rings that go through the arithmetic together: the widest vector, or several of narrower ones.
@@ -302,6 +333,13 @@ void by_separation(double r0, const Rings &rings, const Separations &apart, cons
       logarithmic);
 }
 
+template <class Processor>
+void both_dipoles(double x0, double r0, double normal_x0, double normal_r0, const Rings &rings,
+                  double *at_target, double *at_rings) {
+  Processor::template run<BothDipoles>(ByPositionWithNormal{{x0, r0, rings}, normal_x0, normal_r0, rings},
+                                       KernelRow{at_target}, KernelRow{at_rings});
+}
+
 template <class Processor, class Kernel>
 RingKernel kernel_for() {
   return {Kernel::dimension, by_position<Processor, Plain<Kernel>>, by_separation<Processor, Split<Kernel>>};
@@ -309,8 +347,12 @@ RingKernel kernel_for() {
 
 template <class Processor>
 RingKernels kernels_for(const std::string &instructions) {
-  return {instructions, kernel_for<Processor, Stokeslet>(), kernel_for<Processor, Stresslet>(),
-          kernel_for<Processor, Source>(), kernel_for<Processor, Dipole>()};
+  return {instructions,
+          kernel_for<Processor, Stokeslet>(),
+          kernel_for<Processor, Stresslet>(),
+          kernel_for<Processor, Source>(),
+          kernel_for<Processor, Dipole>(),
+          both_dipoles<Processor>};
 }
 
 const RingKernels &best() {
@@ -361,5 +403,9 @@ const RingKernel ring_stokeslet = best_of<&RingKernels::stokeslet, 2>();
 const RingKernel ring_stresslet = best_of<&RingKernels::stresslet, 2>();
 const RingKernel ring_source = best_of<&RingKernels::source, 1>();
 const RingKernel ring_dipole = best_of<&RingKernels::dipole, 1>();
+const MutualDipoles ring_mutual_dipoles = [](double x0, double r0, double normal_x0, double normal_r0,
+                                             const Rings &rings, double *at_target, double *at_rings) {
+  best().mutual_dipoles(x0, r0, normal_x0, normal_r0, rings, at_target, at_rings);
+};
 
 } // namespace capsule

@@ -342,6 +342,8 @@ double derivative(const std::function<double(double)> &f, double x) {
 BOOST_AUTO_TEST_CASE(kernels_equal_brute_force) {
   for (const Case &c : cases()) {
     const BruteForce exact = brute_force(c.target, c.ring);
+    const Ring own{c.target.x, c.target.r, 0.28, 0.96};
+    const BruteForce back = brute_force({c.ring.x, c.ring.r}, own);
     const double stokeslet_tolerance = 1e-15 * largest(exact.stokeslet);
     const double stresslet_tolerance = 2e-15 * exact.stresslet_bound;
     for (const RingKernels &kernels : available_ring_kernels()) {
@@ -363,6 +365,13 @@ BOOST_AUTO_TEST_CASE(kernels_equal_brute_force) {
                    source_tolerance);
         BOOST_TEST(distance(single_split_sum(kernels.dipole.split, c.target, c.ring), exact.dipole) <
                    dipole_tolerance);
+        Components at_target{};
+        Components at_ring{};
+        kernels.mutual_dipoles(own.x, own.r, own.normal_x, own.normal_r,
+                               {1, &c.ring.x, &c.ring.r, &c.ring.normal_x, &c.ring.normal_r}, &at_target.xx,
+                               &at_ring.xx);
+        BOOST_TEST(distance(at_target, exact.dipole) < dipole_tolerance);
+        BOOST_TEST(distance(at_ring, back.dipole) < 2e-15 / 3 * back.stresslet_bound);
       }
     }
   }
