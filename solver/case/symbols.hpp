@@ -14,6 +14,6 @@ std::vector<std::string> symbols_of(const Key &key);
 const Key *key_named(const std::string &name);
 
 // By its symbol, or by the letters of its last word, of its section's keys first. Empty if none is near.
-std::string nearest_key(const std::string &name);
+std::string nearest_key(const std::string &typed);
 
 } // namespace capsule

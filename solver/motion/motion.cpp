@@ -106,7 +106,7 @@ MainMarch main_march(const Case &input, const Checkpoint &from, const Control &c
   const auto has_checkpoint = [&](double mesh) {
     return from.position.size() == 2 * nodes_of_all(on_mesh(input, mesh));
   };
-  auto mesh = std::ranges::find_if(meshes, has_checkpoint);
+  const auto *mesh = std::ranges::find_if(meshes, has_checkpoint);
   Checkpoint start = from;
   if (mesh == meshes.end())
     mesh = meshes.begin();
