@@ -204,25 +204,26 @@ FixedNearRule::FixedNearRule(const Curve &curve, double tolerance)
     for (Eigen::Index part = 0; part < parts; ++part)
       nodes.segment(part * p, p) =
           (rule.nodes.array() + static_cast<double>(2 * part + 1 - parts)) / static_cast<double>(parts);
-    Level cut{{}, lagrange_matrix(rule.nodes, nodes)};
-    const auto resample = [&](const Vector &field) {
-      Vector values(panels * parts * p);
-      for (Eigen::Index k = 0; k < panels; ++k)
-        values.segment(k * parts * p, parts * p) = cut.interpolation * field.segment(k * p, p);
-      return values;
-    };
-    Curve &fine = cut.curve;
-    fine.panel_points = p;
-    fine.x = resample(curve.x);
-    fine.r = resample(curve.r);
-    fine.x_zeta = resample(curve.x_zeta);
-    fine.r_zeta = resample(curve.r_zeta);
-    fine.weights.resize(fine.x.size());
-    for (Eigen::Index k = 0; k < panels * parts; ++k)
-      fine.weights.segment(k * p, p) = curve.weights.segment(k / parts * p, p) / static_cast<double>(parts);
-    complete(fine);
-    levels_.push_back(std::move(cut));
+    interpolation_.emplace_back(lagrange_matrix(rule.nodes, nodes));
   }
+  cuts_.resize(static_cast<std::size_t>(panels * levels));
+}
+
+const Curve &FixedNearRule::cut(Eigen::Index panel, int level) const {
+  Curve &fine = cuts_[static_cast<std::size_t>(panel * levels + level - 1)];
+  if (fine.size() > 0)
+    return fine;
+  const Eigen::Index p = curve_.panel_points;
+  const RowMatrix &interpolation = interpolation_[static_cast<std::size_t>(level) - 1];
+  fine.panel_points = p;
+  fine.x = interpolation * curve_.x.segment(panel * p, p);
+  fine.r = interpolation * curve_.r.segment(panel * p, p);
+  fine.x_zeta = interpolation * curve_.x_zeta.segment(panel * p, p);
+  fine.r_zeta = interpolation * curve_.r_zeta.segment(panel * p, p);
+  const double parts = 1 << level;
+  fine.weights = (curve_.weights.segment(panel * p, p) / parts).replicate(1 << level, 1);
+  complete(fine);
+  return fine;
 }
 
 double FixedNearRule::distance_to(Eigen::Index panel, double x0, double r0) const {
@@ -240,23 +241,22 @@ KernelBlock FixedNearRule::integrate(const RingKernel &kernel, double x0, double
   int level = std::max(1, static_cast<int>(std::ceil(std::log2(std::min(reach / distance, 1e6)))));
   const auto too_coarse = [&] {
     const double needed = reach / static_cast<double>(1 << level);
-    const Eigen::Index n = p << level;
-    return squared_distance(x0, r0, levels_[static_cast<std::size_t>(level) - 1].curve, panel * n, n) <
-           needed * needed;
+    const Curve &fine = cut(panel, level);
+    return squared_distance(x0, r0, fine, 0, fine.size()) < needed * needed;
   };
   while (level <= levels && too_coarse())
     ++level;
   if (level > levels)
     return rule_[0].integrate(kernel, x0, r0, curve_, panel * p);
-  const auto &[fine, interpolation] = levels_[static_cast<std::size_t>(level) - 1];
-  const Eigen::Index n = interpolation.rows();
-  const Eigen::Index begin = panel * n;
+  const Curve &fine = cut(panel, level);
+  const RowMatrix &interpolation = interpolation_[static_cast<std::size_t>(level) - 1];
+  const Eigen::Index n = fine.size();
   KernelBlock values(components(kernel), n);
-  kernel.plain(x0, r0, rings_of(fine, begin, n), rows_of(values));
+  kernel.plain(x0, r0, rings_of(fine, 0, n), rows_of(values));
   KernelBlock block = KernelBlock::Zero(values.rows(), p);
   for (Eigen::Index component = 0; component < values.rows(); ++component)
     for (Eigen::Index k = 0; k < n; ++k)
-      block.row(component) += (values(component, k) * fine.area[begin + k]) * interpolation.row(k);
+      block.row(component) += (values(component, k) * fine.area[k]) * interpolation.row(k);
   return block;
 }
 

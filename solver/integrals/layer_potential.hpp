@@ -86,7 +86,8 @@ private:
   Matrix halves_[2]; // values on a half from those on the whole panel
 };
 
-// The near rule on a curve that stays: all panels are cut beforehand into 2, 4, 8 and 16 equal parts.
+// The near rule on a curve that stays: a panel is cut into 2, 4, 8 or 16 equal parts when a target first needs them, and they
+// are kept.
 class FixedNearRule {
 public:
   FixedNearRule() = default;
@@ -107,16 +108,16 @@ private:
   KernelBlock integrate(const RingKernel &kernel, double x0, double r0, Eigen::Index panel,
                         double distance) const;
 
+  // A panel in 2^level parts.
+  const Curve &cut(Eigen::Index panel, int level) const;
+
   static constexpr int levels = 4;
-  struct Level {
-    Curve curve;
-    RowMatrix interpolation; // the parts' points from those of the panel
-  };
   Curve curve_;
   Vector reach_; // of each panel
   Vector span_;  // of each panel: reach and length
   std::vector<NearRule> rule_;
-  std::vector<Level> levels_;
+  std::vector<RowMatrix> interpolation_; // of each level: the parts' points from those of a panel
+  mutable std::vector<Curve> cuts_;      // levels of each panel; empty ones are not cut yet
 };
 
 // `self` is null when the targets are no fixed points of the curve. Targets nearer to a panel than its Gauss
