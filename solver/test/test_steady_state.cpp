@@ -83,6 +83,21 @@ BOOST_AUTO_TEST_CASE(stiff_spheres_are_rigid) {
   }
 }
 
+// A wall that two meshes share errs alike on both: here by twice what the two pressure drops differ.
+BOOST_AUTO_TEST_CASE(estimates_know_the_error_of_the_wall) {
+  Case physics = tube_case(neo_hookean, 0.88, 0.0382, 4.8e-3);
+  const Outcome usual = steady(physics, {}, {});
+  BOOST_REQUIRE_MESSAGE(usual.status == Status::steady, usual.message);
+  physics.accuracy = 1e-7;
+  const double exact =
+      record_steady(on_mesh(physics, 96, find_steady(physics, usual.last.profiles.at(0), {})), 1)
+          .row.pressure_drop;
+  const SeriesRow &row = usual.last.series.at(0);
+  const double error = std::abs(row.pressure_drop - exact);
+  BOOST_TEST(error > std::abs(row.pressure_drop - row.pressure_drop_reciprocal));
+  BOOST_TEST(error < usual.error_estimate.at("pressure_drop"));
+}
+
 // In a weak extension D = (15/8) (2 + nu)/(1 + nu) Ca, whatever the bending stiffness of a thin shell.
 BOOST_AUTO_TEST_CASE(small_deformation_in_extension) {
   struct Row {
