@@ -17,15 +17,18 @@ namespace fs = std::filesystem;
 constexpr const char *how_to_save = "save it as CSV in UTF-8 with commas between the fields";
 
 struct Parsed {
-  std::vector<CsvRow> rows;   // blank ones, too
-  std::size_t open_quote = 0; // the line of a quote that is not closed; 0: none
-  std::size_t opened_at = 0;  // its place in the text
+  std::vector<CsvRow> rows; // blank ones, too
+  // Of the first quote that is not closed, or not where its field ends: what is wrong; empty: none. Its line, and its place
+  // in the text.
+  std::string mistake = {};
+  std::size_t quote_line = 0, quote_at = 0;
 };
 
 // `comment`: what a line begins with that is one field; 0: none.
 Parsed parse(std::string_view text, char comment = '\0') {
   Parsed parsed{{{1, {""}}}};
   std::size_t line = 1;
+  bool in_quote = false, behind_quote = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : '\0';
     if (c == '\r' && next == '\n')
@@ -33,30 +36,42 @@ Parsed parse(std::string_view text, char comment = '\0') {
     const bool line_end = c == '\n' || c == '\r';
     line += line_end ? 1 : 0;
     std::vector<std::string> &fields = parsed.rows.back().fields;
-    const bool in_comment = comment != '\0' && parsed.open_quote == 0 && fields.size() == 1 &&
-                            trimmed(fields[0] + c).starts_with(comment);
+    const bool in_comment =
+        comment != '\0' && !in_quote && fields.size() == 1 && trimmed(fields[0] + c).starts_with(comment);
     if (in_comment && !line_end) {
       fields[0] += c;
       continue;
     }
-    if (parsed.open_quote > 0) {
+    if (in_quote) {
       if (c != '"')
         fields.back() += c;
       else if (next == '"')
         fields.back() += text[++i];
+      else {
+        in_quote = false;
+        behind_quote = true;
+      }
+    } else if (line_end || c == ',') {
+      behind_quote = false;
+      if (c == ',')
+        fields.emplace_back();
       else
-        parsed.open_quote = 0;
-    } else if (line_end)
-      parsed.rows.push_back({line, {""}});
-    else if (c == ',')
-      fields.emplace_back();
-    else if (c == '"' && trimmed(fields.back()).empty()) {
+        parsed.rows.push_back({line, {""}});
+    } else if (behind_quote && c != ' ' && c != '\t' && c != ';') { // another separator is told as such
+      parsed.mistake = "text stands behind the end of this quote";
+      return parsed;
+    } else if (!behind_quote && c == '"' && trimmed(fields.back()).empty()) {
       fields.back().clear();
-      parsed.open_quote = line;
-      parsed.opened_at = i;
-    } else
+      in_quote = true;
+      parsed.quote_line = line;
+      parsed.quote_at = i;
+    } else {
       fields.back() += c;
+      behind_quote = behind_quote && c != ';';
+    }
   }
+  if (in_quote)
+    parsed.mistake = "this quote is not closed";
   return parsed;
 }
 
@@ -115,10 +130,10 @@ std::vector<CsvRow> read_csv(const fs::path &file, char comment, std::string &mi
   if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; text.starts_with(byte_order_mark))
     text.erase(0, byte_order_mark.size());
   Parsed parsed = parse(text, comment);
-  for (; parsed.open_quote > 0; parsed = parse(text, comment)) {
-    mistakes += mistake(parsed.open_quote, "this quote is not closed");
+  for (; !parsed.mistake.empty(); parsed = parse(text, comment)) {
+    mistakes += mistake(parsed.quote_line, parsed.mistake);
     constexpr const char *line_ends = "\r\n";
-    const std::size_t before = text.find_last_of(line_ends, parsed.opened_at);
+    const std::size_t before = text.find_last_of(line_ends, parsed.quote_at);
     const std::size_t begin = before == std::string::npos ? 0 : before + 1;
     text.erase(begin, std::min(text.find_first_of(line_ends, begin), text.size()) - begin);
   }

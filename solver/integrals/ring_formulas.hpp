@@ -7,7 +7,7 @@
 
 namespace capsule::ring_formulas {
 
-// What both kernels need of a target and a ring: d is the distance to the nearest, R to the farthest point.
+// What all kernels need of a target and a ring: d is the distance to the nearest, R to the farthest point.
 struct Pair {
   double dx;
   double dr;

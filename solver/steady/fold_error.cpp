@@ -73,10 +73,11 @@ Vector fold_near(SteadySystem &system, const Vector &unknowns, const std::string
   return unknowns + moved;
 }
 
-// Guesses on fewer nodes and, of a train, with coarser walls.
+// Guesses on coarser meshes and, of a train, with coarser walls.
 std::vector<SteadyState> coarser_guesses(const SteadyState &state) {
-  constexpr double fewer = 0.75;
-  std::vector<SteadyState> guesses{moved_to_coarser(state, fewer, 1)};
+  constexpr double fewest = 0.75;
+  std::vector<SteadyState> guesses{moved_to_coarser(state, fewest, 1),
+                                   moved_to_coarser(state, second_mesh.nodes, second_mesh.longer)};
   if (state.system->input().flow.period > 0)
     for (const double longer : longer_panels)
       guesses.push_back(moved_to_coarser(state, 1, longer));
@@ -100,7 +101,7 @@ std::map<std::string, double> errors_of_fold(const SteadyState &fold, const std:
     return {};
   }
   std::map<std::string, double> errors = errors_of(row, rows);
-  errors[key] = error;
+  errors[key] = error_safety * error;
   return errors;
 }
 

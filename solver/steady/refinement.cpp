@@ -50,26 +50,25 @@ SteadyRecord measure(const SteadyState &state, const Gauge &gauge) {
   return record;
 }
 
-// Its errors by states on coarser meshes, the last of them `coarse`, and, of a train, by those with coarser walls.
-void estimate_errors(RefinedState &refined, const SeriesRow &row, SteadyState coarse,
-                     std::vector<SeriesRow> rows) {
-  if (refined.state.system->input().flow.period > 0) {
-    refined.coarser = {std::move(coarse)};
-    for (const double longer : longer_panels) {
-      refined.coarser.push_back(on_coarser(refined.state, 1, longer));
-      rows.push_back(row_of(refined.coarser.back()));
-    }
-  }
+// Its errors by states on coarser meshes and, of a train, with coarser walls.
+void estimate_errors(RefinedState &refined, const SeriesRow &row, std::vector<SteadyState> coarser) {
+  const bool is_train = refined.state.system->input().flow.period > 0;
+  if (is_train)
+    for (const double longer : longer_panels)
+      coarser.push_back(on_coarser(refined.state, 1, longer));
+  std::vector<SeriesRow> rows;
+  std::ranges::transform(coarser, std::back_inserter(rows), row_of);
   refined.error_estimate = errors_of(row, rows);
+  if (is_train)
+    refined.coarser = std::move(coarser);
 }
 
-// One coarser mesh may agree by accident; in one of many quantities it often does. The second one has a coarser wall, too.
-SteadyState between(const Case &input, const SteadyState &fine) {
-  constexpr double share = 0.875;
+SteadyState second_coarser(const Case &input, const SteadyState &fine) {
   try {
-    return on_coarser(fine, share, longer_panels[1]);
+    return on_coarser(fine, second_mesh.nodes, second_mesh.longer);
   } catch (const NumericsFailure &) {
-    return on_mesh(input, static_cast<int>(share * static_cast<double>(fine.system->nodes())), fine);
+    return on_mesh(input, static_cast<int>(second_mesh.nodes * static_cast<double>(fine.system->nodes())),
+                   fine);
   }
 }
 
@@ -130,9 +129,8 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
   if (given || finer_mesh(nodes) > most_nodes) { // no finer mesh: coarser ones tell the error
     const int fewer = std::max(3, nodes * 3 / 4);
     const SteadyState coarser = on_mesh(input, fewer, refined.state);
-    const SeriesRow coarse = row_of(coarser);
-    estimate_errors(refined, row, coarser, {coarse, row_of(between(input, refined.state))});
-    if (!given && !agree(row, coarse, input.accuracy))
+    estimate_errors(refined, row, {coarser, second_coarser(input, refined.state)});
+    if (!given && !agree(row, row_of(coarser), input.accuracy))
       refined.warning = with_physical_keys(poorly_resolved(nodes), input);
     return refined;
   }
@@ -147,7 +145,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
     const bool enough = agree(row, before, input.accuracy);
     if (!enough && finer_mesh(nodes) <= most_nodes)
       continue;
-    estimate_errors(refined, row, coarser, {before, row_of(between(input, refined.state))});
+    estimate_errors(refined, row, {coarser, second_coarser(input, refined.state)});
     if (!enough)
       refined.warning = with_physical_keys(poorly_resolved(nodes), input);
     return refined;
@@ -191,7 +189,7 @@ std::map<std::string, double> errors_of_further(const RefinedState &refined, con
     for (const auto &[quantity, value] : record_steady(coarse, viscosity_ratio).further)
       errors[quantity] += std::abs(record.further.at(quantity) - value);
   for (auto &[quantity, error] : errors)
-    error += relative_error_of_quadrature(record.row);
+    error = error_safety * (error + relative_error_of_quadrature(record.row));
   return errors;
 }
 

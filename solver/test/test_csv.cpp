@@ -108,6 +108,9 @@ BOOST_AUTO_TEST_CASE(what_is_refused) {
        {"id;value\na;1\n", "\"id\";\"value\"\n\"a\";\"1,5\"\n", "id\tvalue\n", "sep=;\nid;value\n"})
     BOOST_TEST(refusal(text) == "t.csv:1:1: error: semicolons or tabs stand between the fields\n" + advice);
   BOOST_TEST(refusal("id,value\na,\"1\nb,2\n") == "t.csv:2:1: error: this quote is not closed\n" + advice);
+  BOOST_TEST(refusal("id,value\na,\"1\nb,\"2\"\n") ==
+             "t.csv:2:1: error: text stands behind the end of this quote\n" + advice);
+  BOOST_TEST(refusal("id,value\na,\"1\" \nb,\t\"2\"\t\n") == "no error");
   BOOST_TEST(refusal("id,value\na,1;2\n") == "no error");
   const TemporaryDirectory directory;
   for (const auto &file : {directory.path / "none.csv", directory.path})
