@@ -117,7 +117,7 @@ private:
   Vector span_;  // of each panel: reach and length
   std::vector<NearRule> rule_;
   std::vector<RowMatrix> interpolation_; // of each level: the parts' points from those of a panel
-  mutable std::vector<Curve> cuts_;      // levels of each panel; empty ones are not cut yet
+  mutable std::vector<Curve> cuts_; // levels of each panel; empty ones are not cut yet; not for two threads
 };
 
 // `self` is null when the targets are no fixed points of the curve. Targets nearer to a panel than its Gauss

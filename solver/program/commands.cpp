@@ -203,7 +203,8 @@ ExitCode follow_branches(const Arguments &arguments) {
   CaseInput input = read_case_of(arguments, task);
   const auto end = [&](const Case &physics) { return end_of_branch(physics, arguments.along, arguments.to); };
   const auto second = [&](const Case &physics) {
-    return follows_fold ? std::optional(end_of_branch(physics, arguments.fold_along, arguments.fold_to))
+    return follows_fold ? std::optional(
+                              end_of_branch(physics, arguments.fold_along, arguments.fold_to, fold_to_option))
                         : std::nullopt;
   };
   for (const RunInput &run : input.runs)

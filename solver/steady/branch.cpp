@@ -237,7 +237,7 @@ void require_key(const Case &input, const std::string &key) {
                   near.empty() ? where_branches_go(input) : fmt::format("did you mean '{}'?", near)));
 }
 
-void require_end(const Case &input, const BranchEnd &end) {
+void require_end(const Case &input, const BranchEnd &end, const std::string &option = to_option) {
   const auto &[name, to] = end;
   require_key(input, name);
   const Key &key = *find_key(name);
@@ -245,7 +245,7 @@ void require_end(const Case &input, const BranchEnd &end) {
     throw InputError(fmt::format("error: no branch along '{}': {}\n", name, why_meaningless(key, input)));
   Case there = input;
   if (const auto complaint = set_value(key, to, there))
-    throw InputError(fmt::format("error: --to {}: {}\n{}\n", number_text(to), complaint->message,
+    throw InputError(fmt::format("error: {} {}: {}\n{}\n", option, number_text(to), complaint->message,
                                  "allowed: " + allowed_text(key)));
   if (name == "capsule.radius" && input.flow.type == FlowType::extension)
     throw InputError("error: no branch along 'capsule.radius': it is the unit of length in an extension\n");
@@ -253,18 +253,19 @@ void require_end(const Case &input, const BranchEnd &end) {
     throw InputError("error: no branch along 'flow.period': the case has no train\n"
                      "give flow.period, where the branch begins\n");
   if (!KeyPath(name, input, to).needed())
-    throw InputError(fmt::format("error: {} = {} is where the branch begins\n", name, number_text(to)));
+    throw InputError(fmt::format("error: {}: {} = {} is the case's own value, where the {} begins\n", option,
+                                 name, number_text(to), option == to_option ? "branch" : "curve of folds"));
 }
 
 // The end along a physical key.
-BranchEnd physical_end(const Case &input, const Key &key, const std::string &to) {
+BranchEnd physical_end(const Case &input, const Key &key, const std::string &to, const std::string &option) {
   if (!has_physical(input))
     throw InputError(fmt::format("error: no branch along '{}': the case has no physical units\n", key.name));
   Case there = input;
   if (key.name == "physical.flow_rate" || key.name == "physical.pressure") // each in place of the other
     there.physical.flow_rate = there.physical.pressure = {};
   if (const auto complaint = set_value(key, to, there))
-    throw InputError(fmt::format("error: --to: {}\n{}\n", complaint->message, complaint->hint));
+    throw InputError(fmt::format("error: {}: {}\n{}\n", option, complaint->message, complaint->hint));
   for (const PhysicalComplaint &complaint : physical_complaints(there))
     if (std::ranges::find(complaint.keys, key.name) != complaint.keys.end())
       throw InputError(fmt::format("error: no branch along '{}': {}\n", key.name, complaint.message));
@@ -293,16 +294,17 @@ void require_branch(const Case &input, const BranchEnd &end, const std::optional
     return;
   if (second->key == end.key)
     throw InputError(fmt::format("error: --fold-along {}: the branch goes along it\n", end.key));
-  require_end(input, *second);
+  require_end(input, *second, fold_to_option);
 }
 
-BranchEnd end_of_branch(const Case &input, const std::string &along, const std::string &to) {
+BranchEnd end_of_branch(const Case &input, const std::string &along, const std::string &to,
+                        const std::string &option) {
   if (const Key *key = find_key(along); key != nullptr && std::holds_alternative<Measured>(key->field))
-    return physical_end(input, *key, to);
+    return physical_end(input, *key, to, option);
   if (const auto value = to_number(to))
     return {along, *value};
   require_key(input, along);
-  throw InputError(fmt::format("error: --to: {}\n", not_a_number(to)));
+  throw InputError(fmt::format("error: {}: {}\n", option, not_a_number(to)));
 }
 
 Outcome follow_branch(const Case &asked, const BranchEnd &end, const Control &control,

@@ -28,8 +28,12 @@ Outcome follow_branch(const Case &asked, const BranchEnd &end, const Control &co
 // where the branch, or the fold along `second`, begins.
 void require_branch(const Case &input, const BranchEnd &end, const std::optional<BranchEnd> &second = {});
 
+// The options that name the end of a branch and of the curve of its folds, for messages.
+inline const std::string to_option = "--to", fold_to_option = "--fold-to";
+
 // What is typed as --along and --to, for a case. A quantity with its unit ("20 ul/min") along a physical key is the value of
 // the one dimensionless key that this changes. Throws InputError if it is no number or quantity, or changes more than that.
-BranchEnd end_of_branch(const Case &input, const std::string &along, const std::string &to);
+BranchEnd end_of_branch(const Case &input, const std::string &along, const std::string &to,
+                        const std::string &option = to_option);
 
 } // namespace capsule

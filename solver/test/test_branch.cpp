@@ -234,6 +234,14 @@ BOOST_AUTO_TEST_CASE(no_branch_there) {
   BOOST_CHECK_THROW(require_branch(physics, {"flow.capilary_number", 2}), InputError);
   BOOST_CHECK_THROW(require_branch(physics, {"flow.capillary_number", -1}), InputError);
   BOOST_CHECK_THROW(require_branch(physics, {"flow.capillary_number", 0.2}), InputError);
+  const auto names = [](const char *option) {
+    return
+        [=](const InputError &error) { return std::string(error.what()).find(option) != std::string::npos; };
+  };
+  const BranchEnd own_radius{"capsule.radius", physics.capsule.radius};
+  BOOST_CHECK_EXCEPTION(require_branch(physics, own_radius), InputError, names("error: --to: "));
+  BOOST_CHECK_EXCEPTION(require_branch(physics, {"flow.capillary_number", 0.3}, own_radius), InputError,
+                        names("error: --fold-to: "));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
