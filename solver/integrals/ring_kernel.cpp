@@ -81,14 +81,11 @@ struct ByPosition {
   }
 };
 
-struct ByPositionWithNormal {
-  ByPosition place;
+struct ByPositionWithNormal : ByPosition {
   double normal_x0;
   double normal_r0;
-  const Rings &rings;
-  [[gnu::always_inline]] Pair pair(int k) const { return place.pair(k); }
   [[gnu::always_inline]] Normals normal(const Pair &p, int k) const {
-    return {place.normal(p, k), {-(p.dx * normal_x0 + p.dr * normal_r0), normal_r0}};
+    return {ByPosition::normal(p, k), {-(p.dx * normal_x0 + p.dr * normal_r0), normal_r0}};
   }
 };
 
@@ -203,7 +200,7 @@ void by_separation(double r0, const Rings &rings, const Separations &apart, cons
 template <class Processor>
 void both_dipoles(double x0, double r0, double normal_x0, double normal_r0, const Rings &rings,
                   double *at_target, double *at_rings) {
-  Processor::template run<BothDipoles>(ByPositionWithNormal{{x0, r0, rings}, normal_x0, normal_r0, rings},
+  Processor::template run<BothDipoles>(ByPositionWithNormal{{x0, r0, rings}, normal_x0, normal_r0},
                                        KernelRow{at_target}, KernelRow{at_rings});
 }
 

@@ -50,14 +50,15 @@ SteadyRecord measure(const SteadyState &state, const Gauge &gauge) {
   return record;
 }
 
-// Its errors by states on coarser meshes and, of a train, with coarser walls.
-void estimate_errors(RefinedState &refined, const SeriesRow &row, std::vector<SteadyState> coarser) {
+// Its errors by states on coarser meshes and, of a train, with coarser walls. The row of the first of them is known.
+void estimate_errors(RefinedState &refined, const SeriesRow &row, const SeriesRow &first,
+                     std::vector<SteadyState> coarser) {
   const bool is_train = refined.state.system->input().flow.period > 0;
   if (is_train)
     for (const double longer : longer_panels)
       coarser.push_back(on_coarser(refined.state, 1, longer));
-  std::vector<SeriesRow> rows;
-  std::ranges::transform(coarser, std::back_inserter(rows), row_of);
+  std::vector<SeriesRow> rows{first};
+  std::transform(coarser.begin() + 1, coarser.end(), std::back_inserter(rows), row_of);
   refined.error_estimate = errors_of(row, rows);
   if (is_train)
     refined.coarser = std::move(coarser);
@@ -129,8 +130,9 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
   if (given || finer_mesh(nodes) > most_nodes) { // no finer mesh: coarser ones tell the error
     const int fewer = std::max(3, nodes * 3 / 4);
     const SteadyState coarser = on_mesh(input, fewer, refined.state);
-    estimate_errors(refined, row, {coarser, second_coarser(input, refined.state)});
-    if (!given && !agree(row, row_of(coarser), input.accuracy))
+    const SeriesRow coarse = row_of(coarser);
+    estimate_errors(refined, row, coarse, {coarser, second_coarser(input, refined.state)});
+    if (!given && !agree(row, coarse, input.accuracy))
       refined.warning = with_physical_keys(poorly_resolved(nodes), input);
     return refined;
   }
@@ -145,7 +147,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
     const bool enough = agree(row, before, input.accuracy);
     if (!enough && finer_mesh(nodes) <= most_nodes)
       continue;
-    estimate_errors(refined, row, {coarser, second_coarser(input, refined.state)});
+    estimate_errors(refined, row, before, {coarser, second_coarser(input, refined.state)});
     if (!enough)
       refined.warning = with_physical_keys(poorly_resolved(nodes), input);
     return refined;
