@@ -9,16 +9,24 @@
 namespace capsule {
 namespace {
 
-Matrix single_with_wall(const Interaction &interaction, const RowMatrix &answer_of_wall) {
-  Matrix layer = interaction.single_layer();
-  layer -= answer_of_wall * interaction.single_at_wall();
-  return stokeslet_factor * layer;
+// A layer without the wall, with what the wall answers to it.
+template <class Answer>
+Matrix with_wall(Matrix layer, const Answer &answer_of_wall, const Matrix &at_wall) {
+  using Scalar = Answer::Scalar;
+  const Answer answer = answer_of_wall * at_wall.cast<Scalar>();
+  layer -= answer.template cast<double>();
+  return layer;
 }
 
-Matrix double_with_wall(const Interaction &interaction, const RowMatrix &answer_of_wall) {
-  Matrix layer = interaction.double_layer();
-  layer -= answer_of_wall * interaction.double_at_wall();
-  return layer;
+template <class Answer>
+Matrix single_with_wall(const Interaction &interaction, const Answer &answer_of_wall) {
+  return stokeslet_factor *
+         with_wall(interaction.single_layer(), answer_of_wall, interaction.single_at_wall());
+}
+
+template <class Answer>
+Matrix double_with_wall(const Interaction &interaction, const Answer &answer_of_wall) {
+  return with_wall(interaction.double_layer(), answer_of_wall, interaction.double_at_wall());
 }
 
 } // namespace
@@ -145,8 +153,9 @@ Vector Flow::load_with_friction(const Interaction &interaction, const Vector &f,
 }
 
 // beta + (S_MM - C A^(-1) S_BM) R/(8 pi) - (D_MM - C A^(-1) D_BM) (lambda - 1) on nodal velocities.
+template <class Answer>
 Matrix Flow::membrane_operator(const Interaction &interaction, const LayerIdentities &identities,
-                               const RowMatrix &answer_of_wall,
+                               const Answer &answer_of_wall,
                                const std::vector<SurfaceFriction> &frictions) const {
   const Eigen::Index n2 = 2 * mesh_.nodes;
   Matrix matrix = equal_viscosities_
@@ -235,14 +244,24 @@ Vector Flow::outer_velocity(const Targets &points, const Interaction &interactio
                               density);
 }
 
-Matrix Flow::mobility(const Interaction &interaction, Recycled &recycled) const {
-  const RowMatrix answer = interaction.answer_of_wall();
-  Matrix single = single_with_wall(interaction, answer);
+template <class Answer>
+Matrix Flow::mobility(const Interaction &interaction, const Answer &answer_of_wall,
+                      Recycled &recycled) const {
+  Matrix single = single_with_wall(interaction, answer_of_wall);
   if (equal_viscosities_ && surface_viscosities_.empty())
     return single;
   const LayerIdentities identities = layer_identities(mesh_, interaction.shape());
-  recycled.inverse = inverse_of(membrane_operator(interaction, identities, answer, frictions(interaction)));
+  recycled.inverse =
+      inverse_of(membrane_operator(interaction, identities, answer_of_wall, frictions(interaction)));
   return recycled.inverse * identities.without_flux(single);
+}
+
+Matrix Flow::mobility(const Interaction &interaction, Recycled &recycled) const {
+  return mobility(interaction, interaction.answer_of_wall(), recycled);
+}
+
+Matrix Flow::rough_mobility(const Interaction &interaction, Recycled &recycled) const {
+  return mobility(interaction, interaction.answer_of_wall<RoughMatrix>(), recycled);
 }
 
 } // namespace capsule

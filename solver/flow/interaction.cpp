@@ -54,14 +54,19 @@ Vector Interaction::answer_of_wall(const Vector &at_wall) const {
   return velocity;
 }
 
-RowMatrix Interaction::answer_of_wall() const {
-  RowMatrix answer(2 * mesh_->nodes, wall_->unknowns());
+template <class Answer>
+Answer Interaction::answer_of_wall() const {
+  using Scalar = Answer::Scalar;
+  Answer answer(2 * mesh_->nodes, wall_->unknowns());
   for (std::size_t k = 0; k < couplings_.size(); ++k) {
-    const RowMatrix of_membrane = couplings_[k].from_wall() * wall_->inverse();
+    const Answer of_membrane =
+        couplings_[k].from_wall().cast<Scalar>() * wall_->inverse().template cast<Scalar>();
     answer(mesh_->rows(k), Eigen::all) = of_membrane;
   }
   return answer;
 }
+template RowMatrix Interaction::answer_of_wall() const;
+template RoughMatrix Interaction::answer_of_wall() const;
 
 Vector Interaction::velocity_at(const Targets &points, const Vector &single_density,
                                 const Vector &double_density) const {

@@ -41,7 +41,8 @@ public:
   // C A^(-1): from the left sides of the wall's equations to velocities of the nodes, with the change of the flow rate
   // that the extra pressure drop makes (Drive).
   Vector answer_of_wall(const Vector &at_wall) const;
-  RowMatrix answer_of_wall() const;
+  template <class Answer = RowMatrix> // or RoughMatrix
+  Answer answer_of_wall() const;
 
   // Velocity at points off the membranes: the layers of nodal densities and what the wall answers. An empty density
   // is none.

@@ -68,7 +68,7 @@ Dynamics standard_dynamics(const Case &physics) {
   dynamics.load = f;
   dynamics.load_jacobian = [loads](const Vector &position) { return loads.frozen_jacobian(position); };
   dynamics.mobility = [flow, recycled](const Vector &position) {
-    return flow->mobility(flow->interact(position), recycled->velocity);
+    return flow->rough_mobility(flow->interact(position), recycled->velocity);
   };
   dynamics.jacobian = [flow, loads, recycled](const Vector &position) -> Matrix {
     const Interaction interaction = flow->interact(position);
