@@ -1,5 +1,6 @@
 #include "flow/wall.hpp"
 #include "flow/joined_panels.hpp"
+#include <algorithm>
 
 namespace capsule {
 namespace {
@@ -7,10 +8,9 @@ namespace {
 // Equal panels in the middle of a tube, or in all of it; longer ones towards its ends, where the disturbance
 // decays like exp(-4.47 d).
 Vector tube_edges(double length, const FlowResolution &resolution) {
-  constexpr double longest = 0.75;
-  const double panel = resolution.wall_panel;
+  const double panel = resolution.wall_panel, longest = std::max(panel, 2.0); // methods.md
   const double outside = length / 2 - resolution.fine_half_length;
-  if (outside < panel || panel > longest)
+  if (outside < panel)
     return graded_edges(0, length, panel, panel, Graded::last);
   const Vector first = graded_edges(0, outside, panel, longest, Graded::last);
   const Vector middle = graded_edges(outside, length - outside, panel, panel, Graded::last);
