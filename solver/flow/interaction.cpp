@@ -47,7 +47,7 @@ Matrix Interaction::double_at_wall() const {
 Vector Interaction::answer_of_wall(const Vector &at_wall) const {
   if (wall_->unknowns() == 0) // BLAS takes no matrix without columns
     return Vector::Zero(2 * mesh_->nodes);
-  const Vector forces = wall_->inverse() * at_wall;
+  const Vector forces = wall_->inverse().answer(at_wall);
   Vector velocity(2 * mesh_->nodes);
   for (std::size_t k = 0; k < couplings_.size(); ++k)
     velocity(mesh_->rows(k)) = couplings_[k].from_wall() * forces;
@@ -56,11 +56,9 @@ Vector Interaction::answer_of_wall(const Vector &at_wall) const {
 
 template <class Answer>
 Answer Interaction::answer_of_wall() const {
-  using Scalar = Answer::Scalar;
   Answer answer(2 * mesh_->nodes, wall_->unknowns());
   for (std::size_t k = 0; k < couplings_.size(); ++k) {
-    const Answer of_membrane =
-        couplings_[k].from_wall().cast<Scalar>() * wall_->inverse().template cast<Scalar>();
+    const Answer of_membrane = wall_->inverse().answers<Answer>(couplings_[k].from_wall());
     answer(mesh_->rows(k), Eigen::all) = of_membrane;
   }
   return answer;

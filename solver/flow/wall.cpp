@@ -99,11 +99,12 @@ Wall::Wall(const Pore &pore, const FlowResolution &resolution)
   fixed_near_ = FixedNearRule(curve_, resolution.near_tolerance);
   weights_.resize(2 * curve_.size() + 1);
   weights_ << stokeslet_factor * curve_.area, 1, stokeslet_factor * curve_.area;
-  inverse_ = weights_.asDiagonal() * lu_inverse(matrix());
   if (pore.shape == PoreShape::tube) {
+    inverse_ = mirrored_inverse();
     closed_form_ = poiseuille_flow;
     base_pressure_drop_ = poiseuille_pressure_drop(pore.entrance_arc);
   } else {
+    inverse_ = WallInverse(weights_.asDiagonal() * lu_inverse(matrix()));
     solve_base_flow();
   }
 }
@@ -115,7 +116,7 @@ Wall::Wall(const Wall &whole, const Vector &edges)
       closed_form_(whole.closed_form_), base_pressure_drop_(whole.base_pressure_drop_) {
   constexpr int components = 2;
   const Joining joining(whole.panels_, panels_, components);
-  inverse_ = joining.columns(joining.rows(whole.inverse_)); // P^T A^(-1) P
+  inverse_ = WallInverse(joining.columns(joining.rows(whole.inverse_.matrix()))); // P^T A^(-1) P
   weights_ = joining.rows(whole.weights_);
   if (whole.base_forces_.size() > 0)
     base_forces_ = joining.rows(whole.base_forces_);
@@ -145,6 +146,17 @@ RowMatrix Wall::matrix() const {
   return matrix;
 }
 
+WallInverse Wall::mirrored_inverse() const {
+  const Eigen::Index half = curve_.size() / 2;
+  const SelfRule self = self_rule_of_wall(panels_);
+  const Targets wall = on_itself(curve_, panels_, self);
+  const Targets first_half{wall.x.head(half), wall.r.head(half), wall.bend_x.head(half),
+                           wall.bend_r.head(half)};
+  const auto per_force = weights_.cwiseInverse().asDiagonal();
+  return {response(first_half, &self) * per_force, outlet_.column(outlet_.single_layer(wall)),
+          per_force * (response(outlet_.row_points).transpose() * outlet_.row_weights)};
+}
+
 void Wall::solve_base_flow() {
   const Eigen::Index n = curve_.size();
   const auto of_outlet = [&](const Targets &points) {
@@ -154,18 +166,18 @@ void Wall::solve_base_flow() {
   Vector known(2 * n + 1);
   known << at_wall.head(n), outlet_.row_weights.dot(of_outlet(outlet_.row_points)) - outlet_.base_row,
       at_wall.tail(n);
-  base_forces_ = -inverse_ * known;
+  base_forces_ = -inverse_.answer(known);
   base_pressure_drop_ = -base_forces_[n];
 }
 
 double Wall::pressure_drop(const Vector &at_wall) const {
-  return unknowns() == 0 ? 0 : inverse_.row(outlet_unknown()).dot(at_wall);
+  return unknowns() == 0 ? 0 : inverse_.answer_of_outlet(at_wall);
 }
 
 Vector Wall::velocity_of(const Vector &at_wall, const Targets &points) const {
   if (unknowns() == 0)
     return Vector::Zero(2 * points.size());
-  return response(points) * (inverse_ * at_wall).cwiseQuotient(weights_);
+  return response(points) * inverse_.answer(at_wall).cwiseQuotient(weights_);
 }
 
 Vector Wall::base_velocity(const Targets &points) const {

@@ -8,6 +8,7 @@
 #include "flow/flow_resolution.hpp"
 #include "flow/outlet.hpp"
 #include "flow/undisturbed.hpp"
+#include "flow/wall_inverse.hpp"
 #include "geometry/pore.hpp"
 
 namespace capsule {
@@ -29,7 +30,7 @@ public:
   // ring stokeslet can be interpolated along the longer panels.
   Wall(const Wall &whole, const Vector &edges);
 
-  Eigen::Index unknowns() const { return inverse_.rows(); }
+  Eigen::Index unknowns() const { return inverse_.unknowns(); }
   Eigen::Index outlet_unknown() const { return curve_.size(); }
   const Curve &curve() const { return curve_; }    // from the outlet's end to the entrance
   const Panels &panels() const { return panels_; } // of the curve, by arc length
@@ -38,9 +39,8 @@ public:
   // Of the curve's panels, for targets off the wall.
   const FixedNearRule &near() const { return fixed_near_; }
 
-  // From velocities b in the equations to the forces A^(-1) b. Applied several times a step, once to a matrix in a
-  // Jacobian.
-  const RowMatrix &inverse() const { return inverse_; }
+  // From velocities in the equations to forces.
+  const WallInverse &inverse() const { return inverse_; }
   // The outlet's row of it: the extra pressure drop -P'.
   double pressure_drop(const Vector &at_wall) const;
   // Velocity at any points, 2 n, of the forces that answer b.
@@ -58,6 +58,7 @@ public:
 private:
   RowMatrix response(const Targets &points, const SelfRule *self = nullptr) const;
   RowMatrix matrix() const;
+  WallInverse mirrored_inverse() const;
   void solve_base_flow();
 
   Panels panels_;
@@ -66,7 +67,7 @@ private:
   NearRule near_;
   FixedNearRule fixed_near_;
   Outlet outlet_;
-  RowMatrix inverse_;                     // with the forces' weights
+  WallInverse inverse_;                   // with the forces' weights
   Vector weights_;                        // force = weight times traction, or P'
   UndisturbedFlow closed_form_ = nullptr; // the flow without membranes, or null
   Vector base_forces_;

@@ -1,0 +1,42 @@
+#pragma once
+// A^(-1) of wall.hpp: from what stands on the left sides of the wall's equations to its unknowns. Both are a component
+// along x at n points, a value of the outlet, and a component along r at the points.
+//   A tube is its own mirror image. To velocities that are mirror symmetric its wall answers with such forces, and to
+// antisymmetric ones with such: each takes a matrix of half the size, which needs an eighth of the work to be inverted and a
+// quarter of it in products. The outlet, at one end only, borders the two. Throws nothing.
+#include "base/linear_algebra.hpp"
+#include <utility>
+
+namespace capsule {
+
+class WallInverse {
+public:
+  WallInverse() = default;
+  explicit WallInverse(RowMatrix whole) : unknowns_(whole.rows()), whole_(std::move(whole)) {}
+  // Of a wall whose points, an even number, lie symmetrically. Of A: the rows of the first half of the points (n x 2n + 1),
+  // the column of the outlet at all points (2n), and its row (2n + 1).
+  WallInverse(const RowMatrix &of_first_half, const Vector &column, const Vector &row);
+
+  Eigen::Index unknowns() const { return unknowns_; }
+  bool is_mirrored() const { return halves_[0].size() > 0; }
+  // A^(-1) b, and the outlet's unknown in it.
+  Vector answer(const Vector &left_sides) const;
+  double answer_of_outlet(const Vector &left_sides) const;
+  // C A^(-1)
+  template <class Answer = RowMatrix> // or RoughMatrix
+  Answer answers(const RowMatrix &from_unknowns) const;
+  RowMatrix matrix() const;
+
+private:
+  Vector answer_of_points(const Vector &at_points) const;
+  template <class Answer = RowMatrix>
+  Answer answers_of_points(const RowMatrix &from_points) const;
+
+  Eigen::Index unknowns_ = 0;
+  RowMatrix whole_;     // empty if it is mirrored
+  RowMatrix halves_[2]; // of symmetric and of antisymmetric fields
+  Vector column_, row_; // what the points answer to the outlet's column, and its row of what they answer
+  double corner_ = 0;   // of the outlet, less what the points answer to it
+};
+
+} // namespace capsule
