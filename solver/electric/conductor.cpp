@@ -87,12 +87,18 @@ FlowResolution coarser_conductor(FlowResolution resolution) {
   return resolution;
 }
 
-// Of the current pi through a part of a sphere.
-Conductor::Electrode Conductor::cap_electrode(Curve cap, double centre_x) const {
+// Of the current pi through a part of a sphere; the pore is around the middle.
+Conductor::Electrode Conductor::cap_electrode(Curve cap, double centre_x, double middle) const {
   const double field = 1 / (2 * cap.area.sum());
   const double potential = field * distance_from(centre_x, cap);
   const FixedNearRule near(cap, tolerance_);
-  return {std::move(cap), near, field, potential};
+  const SolidHarmonics sources(ring_source, cap, middle), dipoles(ring_dipole, cap, middle);
+  return {std::move(cap), near, field, potential, sources, dipoles};
+}
+
+Vector Conductor::Electrode::layer(const RingKernel &kernel, const Targets &points) const {
+  const SolidHarmonics &harmonics = &kernel == &ring_source ? sources : dipoles;
+  return harmonics.hold(points) ? harmonics.at(points) : capsule::layer(kernel, points, section, near);
 }
 
 Conductor::Conductor(const Pore &pore, const FlowResolution &resolution)
@@ -102,7 +108,7 @@ Conductor::Conductor(const Pore &pore, const FlowResolution &resolution)
   const Curve &wall = whole_.wall = wall_curve(far, along);
   whole_.points = {wall.x, wall.r};
   if (pore.shape == PoreShape::two_mouths) {
-    out_ = cap_electrode(cap_behind_exit(far), far.exit_x);
+    out_ = cap_electrode(cap_behind_exit(far), far.exit_x, pore.exit_x / 2);
     circle_ = Circle{far.exit_x / 2, 1 + std::min(far.exit_x / 2, 2.0)};
   } else {
     out_.section = disc_at(far.exit_x, 1);
@@ -133,7 +139,7 @@ Conductor::Conductor(const Pore &pore, const FlowResolution &resolution)
   if (pore.shape == PoreShape::tube) {
     empty_resistance_ = pore.exit_x + pore.entrance_distance;
   } else {
-    in_ = cap_electrode(cap_before_mouth(far), 0);
+    in_ = cap_electrode(cap_before_mouth(far), 0, pore.exit_x / 2);
     whole_.base = whole_.inverse * source_in_equations();
     empty_resistance_ = whole_.base[n] - (far.exit_x - pore.exit_x);
   }
@@ -162,7 +168,7 @@ const Conductor::Surface &Conductor::felt_by(const MembraneMesh &mesh, const Vec
 
 // The double layer of 1 on the wall without end: minus the solid angle of the section over 4 pi, none in its plane.
 Vector Conductor::behind_section(const Targets &points) const {
-  const Vector solid_angle = layer(ring_dipole, points, out_.section, out_.near);
+  const Vector solid_angle = out_.layer(ring_dipole, points);
   if (circle_)
     return -solid_angle;
   return (points.x.array() == out_.section.x[0]).select(0, -solid_angle);
@@ -170,11 +176,10 @@ Vector Conductor::behind_section(const Targets &points) const {
 
 // What is known of u_0 where the current comes and leaves.
 Vector Conductor::source_of_current(const Targets &points, const Vector &behind_section) const {
-  Vector source = out_.field * layer(ring_source, points, out_.section, out_.near) -
-                  in_.field * layer(ring_source, points, in_.section, in_.near);
+  Vector source = out_.field * out_.layer(ring_source, points) - in_.field * in_.layer(ring_source, points);
   if (out_.potential > 0)
     source += out_.potential * behind_section; // in no plane
-  return source - in_.potential * layer(ring_dipole, points, in_.section, in_.near);
+  return source - in_.potential * in_.layer(ring_dipole, points);
 }
 
 Vector Conductor::Coupling::at_wall(const Vector &potential, const Vector &on_panels) const {
@@ -285,22 +290,26 @@ double Conductor::change(const MembraneMesh &mesh, const Vector &position) const
     auto on_part = base.segment(part.first_node, part.nodes());
     on_part.array() -= on_part.mean();
   }
-  // 1/2 is most of the operator: its inverse leaves few corrections.
-  Recycled start{2 * Matrix::Identity(mesh.nodes, mesh.nodes), {}, {}};
   const auto apply = [&](const Vector &potential) -> Vector {
     const Vector on_panels = at_panels(mesh, potential);
     return 0.5 * potential + to_nodes * on_panels -
            from_wall * (wall.inverse * coupling.at_wall(potential, on_panels));
   };
-  const Vector potential = solve_recycled(
-      position, tolerance_, start,
-      [&](const Vector &guess) { return guess.isZero(0) ? base : Vector(base - apply(guess)); }, apply,
-      [&]() -> Matrix {
-        Matrix system(mesh.nodes, mesh.nodes);
-        for (Eigen::Index k = 0; k < mesh.nodes; ++k)
-          system.col(k) = apply(Vector::Unit(mesh.nodes, k));
-        return system;
-      });
+  const auto system = [&]() -> Matrix {
+    Matrix columns(mesh.nodes, mesh.nodes);
+    for (Eigen::Index k = 0; k < mesh.nodes; ++k)
+      columns.col(k) = apply(Vector::Unit(mesh.nodes, k));
+    return columns;
+  };
+  Vector potential = Vector::Zero(mesh.nodes);
+  // 1/2 is most of the operator: its inverse leaves few corrections.
+  if (!conjugate_residuals(
+          tolerance_, base, potential, [](const Vector &residual) { return Vector(2 * residual); }, apply)) {
+    Recycled nothing;
+    potential = solve_recycled(
+        position, tolerance_, nothing, [&](const Vector &guess) { return Vector(base - apply(guess)); },
+        apply, system);
+  }
   return -wall.inverse.row(wall.wall.size()).dot(coupling.at_wall(potential, at_panels(mesh, potential)));
 }
 

@@ -10,6 +10,7 @@
 // that w carries no current: w_+ on the section itself, or behind a second mouth, where the potential of a current fades,
 // no flux through a circle around the tube. A is of the second kind and inverted once; distant panels of the wall are
 // joined (joined_panels.hpp). Membranes act on what is far from them by the rule on their nodes.
+#include "electric/solid_harmonics.hpp"
 #include "flow/joined_panels.hpp"
 #include "flow/outlet.hpp"
 #include "geometry/pore.hpp"
@@ -42,8 +43,11 @@ private:
     Curve section;
     FixedNearRule near;
     double field = 1, potential = 0;
+    SolidHarmonics sources, dipoles; // of a cap, which is far away from the pore
+    // The layer of 1 on the section.
+    Vector layer(const RingKernel &kernel, const Targets &points) const;
   };
-  Electrode cap_electrode(Curve cap, double centre_x) const;
+  Electrode cap_electrode(Curve cap, double centre_x, double middle) const;
 
   // Around the tube, in the solid: the flux through it is the tube's.
   struct Circle {

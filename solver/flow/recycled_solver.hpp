@@ -27,46 +27,56 @@ Vector continued_solution(const Recycled &recycled, const Vector &position);
 void remember_solution(const Vector &position, const Vector &solution, Recycled &recycled);
 NumericsFailure not_converged();
 
-// Generalised conjugate residuals, preconditioned with the earlier inverse.
+// Generalised conjugate residuals from a guess, whose residual is given. False if the corrections do not end.
 //   tolerance     of the solution, relative to its largest component
-//   residual_of   a guess
+//   precondition  nearly the error from a residual
 //   apply         the matrix to a vector
+template <class Precondition, class Apply>
+bool conjugate_residuals(double tolerance, Vector residual, Vector &solution,
+                         const Precondition &precondition, const Apply &apply) {
+  constexpr int most_corrections = 10; // a fresh inverse costs some tens of them
+  std::vector<Vector> directions, images;
+  for (int k = 0; k <= most_corrections; ++k) {
+    Vector direction = precondition(residual);
+    if (direction.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= tolerance * solution.cwiseAbs().maxCoeff()) {
+      solution += direction;
+      return true;
+    }
+    Vector image = apply(direction);
+    for (std::size_t j = 0; j < images.size(); ++j) {
+      const double share = images[j].dot(image);
+      image -= share * images[j];
+      direction -= share * directions[j];
+    }
+    const double norm = image.norm();
+    if (!(norm > 0)) // or not a number: the preconditioner is of no use
+      return false;
+    images.push_back(image / norm);
+    directions.push_back(direction / norm);
+    const double share = images.back().dot(residual);
+    solution += share * directions.back();
+    residual -= share * images.back();
+  }
+  return false;
+}
+
+// The same, preconditioned with the earlier inverse, or else with a fresh one.
+//   residual_of   a guess
 //   matrix        all of it, for a fresh inverse
 template <class Residual, class Apply, class Build>
 Vector solve_recycled(const Vector &position, double tolerance, Recycled &recycled,
                       const Residual &residual_of, const Apply &apply, const Build &matrix) {
-  constexpr int most_corrections = 10; // a fresh inverse costs some tens of them
   if (recycled.inverse.size() == 0)
     recycled.inverse = inverse_of(matrix());
   Vector solution = recycled.positions.empty() ? Vector::Zero(recycled.inverse.rows())
                                                : continued_solution(recycled, position);
+  const auto precondition = [&](const Vector &residual) { return Vector(recycled.inverse * residual); };
   for (const bool fresh : {false, true}) {
     if (fresh)
       recycled.inverse = inverse_of(matrix());
-    Vector residual = residual_of(solution);
-    std::vector<Vector> directions, images;
-    for (int k = 0; k <= most_corrections; ++k) {
-      Vector direction = recycled.inverse * residual; // nearly the error
-      if (direction.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <=
-          tolerance * solution.cwiseAbs().maxCoeff()) {
-        solution += direction;
-        remember_solution(position, solution, recycled);
-        return solution;
-      }
-      Vector image = apply(direction);
-      for (std::size_t j = 0; j < images.size(); ++j) {
-        const double share = images[j].dot(image);
-        image -= share * images[j];
-        direction -= share * directions[j];
-      }
-      const double norm = image.norm();
-      if (!(norm > 0)) // or not a number: the inverse is of no use
-        break;
-      images.push_back(image / norm);
-      directions.push_back(direction / norm);
-      const double share = images.back().dot(residual);
-      solution += share * directions.back();
-      residual -= share * images.back();
+    if (conjugate_residuals(tolerance, residual_of(solution), solution, precondition, apply)) {
+      remember_solution(position, solution, recycled);
+      return solution;
     }
   }
   throw not_converged();
