@@ -1,6 +1,7 @@
 #include "geometry/pore.hpp"
 #include "base/failure.hpp"
 #include "geometry/quadrature.hpp"
+#include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <fmt/format.h>
@@ -37,14 +38,14 @@ double hyperbola_speed(const Pore &pore, double w) {
   return std::hypot(p.slope_x, p.slope_r);
 }
 
-// Arc length from the lip.
-double hyperbola_arc(const Pore &pore, double w) {
+// Arc length between two w.
+double hyperbola_arc(const Pore &pore, double w_begin, double w_end) {
   static const GaussRule rule = gauss_legendre(20);
-  const int pieces = static_cast<int>(std::ceil(w)) + 1;
-  const double width = w / pieces;
+  const int pieces = static_cast<int>(std::ceil(std::abs(w_end - w_begin))) + 1;
+  const double width = (w_end - w_begin) / pieces;
   double arc = 0;
   for (int i = 0; i < pieces; ++i) {
-    const double from = i * width, to = (i + 1) * width;
+    const double from = w_begin + i * width, to = w_begin + (i + 1) * width;
     const double middle = (from + to) / 2, half = (to - from) / 2;
     double sum = 0;
     for (Eigen::Index k = rule.size() / 2; k < rule.size(); ++k) { // nodes lie in pairs
@@ -60,12 +61,15 @@ double hyperbola_arc(const Pore &pore, double w) {
 double hyperbola_parameter(const Pore &pore, double arc) {
   if (arc <= 0)
     return 0;
-  double w = std::asinh(arc * pore.sine / (pore.cosine * pore.cosine)); // from arc > |x|
+  const double k = pore.cosine; // arc > |x|, arc > r - 1
+  double w = std::asinh(std::min(arc * pore.sine / (k * k), std::sqrt(arc * (arc + 2)) / k));
+  double beyond = hyperbola_arc(pore, 0, w) - arc;
   for (int i = 0; i < 100; ++i) {
-    const double step = (hyperbola_arc(pore, w) - arc) / hyperbola_speed(pore, w);
-    w -= step;
+    const double step = beyond / hyperbola_speed(pore, w);
     if (std::abs(step) <= 4e-16 * w)
       break;
+    beyond -= hyperbola_arc(pore, w - step, w); // shorter than the whole arc
+    w -= step;
   }
   return w;
 }
@@ -127,7 +131,7 @@ Pore with_ends(Pore pore, double exit_x, double entrance_distance) {
   else if (right_angled(pore))
     pore.entrance_arc = pore.exit_x + pore.entrance_distance - 1;
   else // on the cap r = cosh u with sinh u = sin(alpha) reach = k sinh w
-    pore.entrance_arc = pore.exit_x + hyperbola_arc(pore, std::asinh(pore.sine * reach / pore.cosine));
+    pore.entrance_arc = pore.exit_x + hyperbola_arc(pore, 0, std::asinh(pore.sine * reach / pore.cosine));
   if (pore.shape == PoreShape::two_mouths)
     pore.exit_arc = pore.exit_x - pore.entrance_arc;
   pore.end_of_way =
