@@ -97,6 +97,7 @@ public:
     outcome().error_estimate = start.error_estimate;
     state_ = start.state;
     outcome().branch.push_back(record({state_.unknowns, 0}, true));
+    place_ = path_.text(0);
     branch_ = std::make_unique<Branch>(*state_.system, path_, BranchPoint{state_.unknowns, 0},
                                        Branch::upwards(*state_.system), steps_of_a_branch);
   }
@@ -114,10 +115,11 @@ public:
       last_fold_ = {{state_.system, fold.unknowns}, fold.parameter, branch_->tangent_before()};
     }
     branch_->require_stiffness(1);
-    part_ = branch_->point().parameter;
-    if (part_ >= 1 || part_ <= 0) {
+    const double part = branch_->point().parameter;
+    place_ = path_.text(part);
+    if (part >= 1 || part <= 0) {
       outcome().branch.push_back(record_point(true));
-      if (part_ <= 0)
+      if (part <= 0)
         throw NumericsFailure(
             failure_kind::fold,
             fmt::format("the branch turns back to where it began and does not reach {}", path_.text(1)),
@@ -131,16 +133,15 @@ public:
     outcome().branch.push_back(record_point(runs_away));
     if (runs_away) {
       outcome().status = Status::unbounded;
-      outcome().message = fmt::format("stretched beyond {} at {}{}; the branch is not followed further",
-                                      enough, path_.text(part_),
-                                      outcome().folds.empty() ? "" : ", behind the fold at " + fold_text());
+      outcome().message =
+          fmt::format("stretched beyond {} at {}{}; the branch is not followed further", enough, place_,
+                      outcome().folds.empty() ? "" : ", behind the fold at " + fold_text());
       return true;
     }
     if (std::ssize(outcome().branch) > most_points_of_a_branch)
-      throw NumericsFailure(
-          failure_kind::step,
-          fmt::format("{} points have led to {} only", most_points_of_a_branch, path_.text(part_)),
-          "a nearer --to");
+      throw NumericsFailure(failure_kind::step,
+                            fmt::format("{} points have led to {} only", most_points_of_a_branch, place_),
+                            "a nearer --to");
     if (branch_->wants_a_finer_mesh())
       refine_mesh(branch_->point(), branch_->tangent(), branch_->trend());
     return false;
@@ -157,6 +158,7 @@ public:
                 may_refine_ ? most_nodes_of_a_branch : nodes(), control,
                 [&](const SteadyState &state, const FoldPoint &point) {
                   throw_if_interrupted(control);
+                  place_ = second.text(point.second_part);
                   const SteadyRecord record = record_steady(state, viscosity_ratio_);
                   outcome().fold_curve.push_back(
                       {second.value(point.second_part),
@@ -169,7 +171,7 @@ public:
   void keep_latest() { record_.keep_latest(); }
   Outcome &outcome() { return record_.outcome; }
   int nodes() const { return static_cast<int>(state_.system->nodes()); }
-  std::string place() const { return path_.text(part_); }
+  const std::string &place() const { return place_; }
 
 private:
   // Of the last one.
@@ -213,7 +215,7 @@ private:
   bool may_refine_;
   SteadyState state_;
   std::unique_ptr<Branch> branch_;
-  double part_ = 0;
+  std::string place_; // of the last point
   Homotopy::Fold last_fold_;
 };
 
@@ -261,6 +263,9 @@ void require_end(const Case &input, const BranchEnd &end, const std::string &opt
 BranchEnd physical_end(const Case &input, const Key &key, const std::string &to, const std::string &option) {
   if (!has_physical(input))
     throw InputError(fmt::format("error: no branch along '{}': the case has no physical units\n", key.name));
+  if (is_of_fits(key))
+    throw InputError(fmt::format("error: no branch along '{}': it is a key of `capsule fit`\n{}\n", key.name,
+                                 where_branches_go(input)));
   Case there = input;
   if (key.name == "physical.flow_rate" || key.name == "physical.pressure") // each in place of the other
     there.physical.flow_rate = there.physical.pressure = {};

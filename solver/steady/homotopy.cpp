@@ -16,14 +16,14 @@ constexpr double growth_behind_fold = 1.03;
 
 } // namespace
 
-void Homotopy::vary(const std::string &key, double to) {
+void Homotopy::vary(const std::string &key, double to, const Control &control) {
   const KeyPath path(key, now_, to);
   const SteadyState begin = state_;
   begin_path();
   bool arrived = !path.needed();
   while (!arrived) {
     try {
-      arrived = follow(path);
+      arrived = follow(path, control);
     } catch (const NumericsFailure &failure) {
       const bool softens =
           failure.kind == failure_kind::softening && state_.system->nodes() >= nodes_that_show_softening;
@@ -53,7 +53,7 @@ void Homotopy::refine_at(const Case &input) {
 
 // Follows the branch, if need be through folds, to its end (true) or to where it needs a finer mesh. When it fails,
 // state_ and place_ hold what was reached.
-bool Homotopy::follow(const KeyPath &path) {
+bool Homotopy::follow(const KeyPath &path, const Control &control) {
   const Branch::Steps steps{.first = place_.first_step,
                             .largest = 0.7,
                             .tolerance = 1e-7,
@@ -62,7 +62,7 @@ bool Homotopy::follow(const KeyPath &path) {
   constexpr int most_steps = 200;
   constexpr double first_part = -1; // as far as a branch that has turned is followed
   Branch branch(*state_.system, path, {state_.unknowns, place_.part}, place_.direction, steps, place_.trend,
-                control_);
+                control);
   for (int step = 0; step < most_steps; ++step) {
     state_.unknowns = branch.point().unknowns;
     place_.part = branch.point().parameter;

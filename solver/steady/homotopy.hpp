@@ -14,12 +14,12 @@ namespace capsule {
 class Homotopy {
 public:
   // `begin` is the state of `now`, which differs from the target in the keys to be varied.
-  Homotopy(const Case &target, const Case &now, SteadyState begin, const Control &control)
-      : target_(target), now_(now), control_(control), state_(std::move(begin)) {}
+  Homotopy(const Case &target, const Case &now, SteadyState begin)
+      : target_(target), now_(now), state_(std::move(begin)) {}
 
   // Takes one key to a value. Throws NumericsFailure: "fold" where the branch turns for good and the membrane runs away behind
   // it, "softening" where the membrane's law softens; other kinds say nothing about the case. Throws what it asks of `control`.
-  void vary(const std::string &key, double to);
+  void vary(const std::string &key, double to, const Control &control);
 
   const SteadyState &state() const { return state_; }
 
@@ -39,7 +39,7 @@ private:
   bool can_refine() const { return state_.system->nodes() < most(); }
   void begin_path();
   void refine_at(const Case &input);
-  bool follow(const KeyPath &path);
+  bool follow(const KeyPath &path, const Control &control);
 
   // How far the branch of one key has been followed.
   struct Place {
@@ -53,7 +53,6 @@ private:
   };
 
   Case target_, now_;
-  const Control &control_;
   SteadyState state_;
   Place place_;
 };

@@ -31,7 +31,7 @@ constexpr std::array area_keys{"membrane.dilatation", "membrane.area_modulus"};
 constexpr double area_modulus_to_relax = 100;
 
 // A small stiff sphere in a weak flow.
-Homotopy from_a_stiff_sphere(const Case &target, const Control &control) {
+Homotopy from_a_stiff_sphere(const Case &target) {
   Case begin = target;
   begin.flow.capillary_number = std::min(weak_flow, target.flow.capillary_number);
   begin.capsule.aspect_ratio = 1;
@@ -39,7 +39,7 @@ Homotopy from_a_stiff_sphere(const Case &target, const Control &control) {
   if (target.pore.shape != PoreShape::none)
     begin.capsule.radius = std::min(small_radius, target.capsule.radius);
   const auto system = first_system(begin);
-  return {target, begin, {system, solve_steady(*system, system->initial())}, control};
+  return {target, begin, {system, solve_steady(*system, system->initial())}};
 }
 
 // A state on so many nodes: by Newton's method, or if it does not get there from rest to rest.
@@ -139,6 +139,8 @@ std::optional<SteadyState> by_march(const Case &input, const Control &control, c
   return {};
 }
 
+constexpr double most_work_of_a_key = 300; // what arrives takes less (methods.md)
+
 // By branches from a small stiff sphere: first all but the capillary number, in a flow of given strength, because where the flow
 // is not too weak a shell gets thin without buckling; last the flow to the case's.
 std::optional<SteadyState> from_a_stiff_sphere_at(double strength, const Case &input, const Control &control,
@@ -154,11 +156,11 @@ std::optional<SteadyState> from_a_stiff_sphere_at(double strength, const Case &i
   std::size_t done = 0;
   std::optional<Homotopy> homotopy;
   try {
-    homotopy.emplace(from_a_stiff_sphere(input, control));
-    for (const auto &[key, value] : way) {
-      homotopy->vary(key, value);
-      ++done;
-    }
+    homotopy.emplace(from_a_stiff_sphere(input));
+    for (; done < way.size() - 1; ++done)
+      within(most_work_of_a_key, control,
+             [&](const Control &limited) { homotopy->vary(way[done].first, way[done].second, limited); });
+    homotopy->vary(flow_key, flow, control);
     return homotopy->state();
   } catch (const NumericsFailure &failure) {
     if (grows && done == way.size() - 1 && ends_branch(failure))
@@ -203,14 +205,13 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
       weaker = with_number(weaker, key, std::min(area_modulus_to_relax, number(key, input)));
     bool only_flow_is_left = false;
     try {
-      Homotopy homotopy(input, weaker,
-                        within(most_work_of_relaxing, control,
-                               [&](const Control &limited) { return by_relaxation(weaker, limited); }),
-                        control);
+      Homotopy homotopy(input, weaker, within(most_work_of_relaxing, control, [&](const Control &limited) {
+                          return by_relaxation(weaker, limited);
+                        }));
       for (const char *key : area_keys)
-        homotopy.vary(key, number(key, input));
+        homotopy.vary(key, number(key, input), control);
       only_flow_is_left = true;
-      homotopy.vary(flow_key, flow);
+      homotopy.vary(flow_key, flow, control);
       return homotopy.state();
     } catch (const NumericsFailure &failure) { // it may run away, or buckle on the way: other branches tell
       if (only_flow_is_left && ends_branch(failure))
@@ -322,9 +323,9 @@ SteadyState among_neighbours(const Case &input, const Control &control, const Ma
   } catch (const NumericsFailure &) {
     const double length = 2 * state.unknowns.head(nodes).cwiseAbs().maxCoeff();
     alone.flow.period = std::max(length + out_of_reach, input.flow.period);
-    Homotopy homotopy(input, alone, moved_to_mesh(alone, nodes, state), control);
+    Homotopy homotopy(input, alone, moved_to_mesh(alone, nodes, state));
     try {
-      homotopy.vary(period_key, input.flow.period);
+      homotopy.vary(period_key, input.flow.period, control);
     } catch (const NumericsFailure &) {
       throw_if_touching(homotopy.state());
       throw;

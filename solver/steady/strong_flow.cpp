@@ -95,10 +95,10 @@ std::optional<SteadyState> made_softer(const Case &input, const Case &stiff, con
                                        const KeyPath &softer, const KeyPath &stronger,
                                        const Control &control) {
   const double thin = softer.value(1);
-  Homotopy homotopy(input, stiff, state, control);
+  Homotopy homotopy(input, stiff, state);
   try {
-    homotopy.vary(bending_key, thin);
-    homotopy.vary(bending_key, input.membrane.bending_ratio);
+    homotopy.vary(bending_key, thin, control);
+    homotopy.vary(bending_key, input.membrane.bending_ratio, control);
     return homotopy.state();
   } catch (const NumericsFailure &failure) {
     if (failure.kind == failure_kind::fold)
@@ -132,8 +132,8 @@ std::optional<SteadyState> by_stiff_membrane(const Case &input, const Control &c
     const KeyPath stronger(flow_key, weaker, flow), softer(bending_key, weaker, thin);
     std::optional<Homotopy> homotopy;
     try {
-      homotopy.emplace(stiff, weaker, let_loose(weaker, control), control);
-      homotopy->vary(flow_key, flow);
+      homotopy.emplace(stiff, weaker, let_loose(weaker, control));
+      homotopy->vary(flow_key, flow, control);
     } catch (const NumericsFailure &failure) {
       if (!homotopy || !ends_branch(failure))
         continue;

@@ -218,6 +218,7 @@ BOOST_AUTO_TEST_CASE(ends_in_physical_units) {
   says("physical.shear_modulus", "1 mN/m", "changes flow.capillary_number and the scales");
   says("physical.tube_radius", "6 um", "changes flow.capillary_number, capsule.radius and the scales");
   says("physical.internal_viscosity", "6 cP", "steady states do not depend on it");
+  says("physical.capsule_velocity", "1 mm/s", "a key of `capsule fit`");
   says("physical.capsule_radius", "3", "has no unit");
   // The flow grows with the pressure.
   physics.physical.flow_rate = {};

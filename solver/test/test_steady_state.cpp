@@ -363,10 +363,9 @@ BOOST_AUTO_TEST_CASE(hard_skins_come_to_constant_area) {
   Case physics = tube_case(skalak, 0.8, 0.09, 1e-2);
   physics.capsule.shape = CapsuleShape::biconcave;
   physics.membrane.law = {skalak, {100}};
-  const Control control;
-  Homotopy harder(physics, physics, on_given_mesh(physics), control);
+  Homotopy harder(physics, physics, on_given_mesh(physics));
   const auto with = [&](double dilatation) {
-    harder.vary("membrane.dilatation", dilatation);
+    harder.vary("membrane.dilatation", dilatation, {});
     const SteadyState &end = harder.state(); // of a way that need not be as exact as its end
     return record_steady({end.system, solve_steady(*end.system, end.unknowns)}, 1).row;
   };
