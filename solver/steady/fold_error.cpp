@@ -75,12 +75,10 @@ Vector fold_near(SteadySystem &system, const Vector &unknowns, const std::string
 
 // Guesses on coarser meshes and, of a train, with coarser walls.
 std::vector<SteadyState> coarser_guesses(const SteadyState &state) {
-  constexpr double fewest = 0.75;
-  std::vector<SteadyState> guesses{moved_to_coarser(state, fewest, 1),
-                                   moved_to_coarser(state, second_mesh.nodes, second_mesh.longer)};
+  std::vector<SteadyState> guesses{moved_to_coarser(state, first_mesh), moved_to_coarser(state, second_mesh)};
   if (state.system->input().flow.period > 0)
-    for (const double longer : longer_panels)
-      guesses.push_back(moved_to_coarser(state, 1, longer));
+    for (const CoarserMesh &mesh : coarser_walls)
+      guesses.push_back(moved_to_coarser(state, mesh));
   return guesses;
 }
 

@@ -112,22 +112,26 @@ SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state, cons
   }
 }
 
-SteadyState moved_to_coarser(const SteadyState &state, double share, double longer) {
+int nodes_of(const CoarserMesh &mesh, Eigen::Index finer) {
+  return std::max(3, static_cast<int>(mesh.nodes * static_cast<double>(finer)));
+}
+
+SteadyState moved_to_coarser(const SteadyState &state, const CoarserMesh &mesh) {
   const SteadySystem &system = *state.system;
   const Membrane &membrane = system.membrane();
-  const int nodes = std::max(3, static_cast<int>(share * static_cast<double>(system.nodes())));
+  const int nodes = nodes_of(mesh, system.nodes());
   const Vector even = spectral_basis(nodes).nodes;
   const Vector angles = even + membrane.basis.odd(even, 0, membrane.node_angle - membrane.basis.nodes);
   Resolution resolution = resolution_of(system.input(), nodes);
   resolution.flow = system.resolution().flow;
-  resolution.flow.wall_panel *= longer;
+  resolution.flow.wall_panel *= mesh.longer;
   const double tip = state.unknowns.head(system.nodes()).cwiseAbs().maxCoeff();
   const auto coarser = std::make_shared<SteadySystem>(system.input(), resolution, angles, tip);
   return {coarser, moved_to(*coarser, system, state.unknowns)};
 }
 
-SteadyState on_coarser(const SteadyState &state, double share, double longer) {
-  SteadyState moved = moved_to_coarser(state, share, longer);
+SteadyState on_coarser(const SteadyState &state, const CoarserMesh &mesh) {
+  SteadyState moved = moved_to_coarser(state, mesh);
   moved.unknowns = solve_steady(*moved.system, moved.unknowns);
   return moved;
 }

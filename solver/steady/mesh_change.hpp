@@ -34,9 +34,14 @@ Vector moved_to(const SteadySystem &to, const SteadySystem &from, const Vector &
 SteadyState moved_to_mesh(const Case &input, int nodes, const SteadyState &state);
 // The state itself on so many nodes; if need be by way of a stiffer membrane.
 SteadyState on_mesh(const Case &input, int nodes, const SteadyState &state, const Control &control = {});
-// The state itself on a share of its nodes, spread as its own are, whatever they suit, in a tube whose panels are so many times
-// longer; the other is the guess for that.
-SteadyState on_coarser(const SteadyState &state, double share, double longer);
-SteadyState moved_to_coarser(const SteadyState &state, double share, double longer);
+// A mesh that is coarser than another one: it has a share of the nodes, and the panels of its tube are so many times longer.
+struct CoarserMesh {
+  double nodes = 1, longer = 1;
+};
+int nodes_of(const CoarserMesh &mesh, Eigen::Index finer);
+// The state itself on a coarser mesh, whose nodes are spread as its own are, whatever they suit; the other is the guess for
+// that.
+SteadyState on_coarser(const SteadyState &state, const CoarserMesh &mesh);
+SteadyState moved_to_coarser(const SteadyState &state, const CoarserMesh &mesh);
 
 } // namespace capsule

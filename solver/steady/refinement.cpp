@@ -55,8 +55,8 @@ void estimate_errors(RefinedState &refined, const SeriesRow &row, const SeriesRo
                      std::vector<SteadyState> coarser) {
   const bool is_train = refined.state.system->input().flow.period > 0;
   if (is_train)
-    for (const double longer : longer_panels)
-      coarser.push_back(on_coarser(refined.state, 1, longer));
+    for (const CoarserMesh &mesh : coarser_walls)
+      coarser.push_back(on_coarser(refined.state, mesh));
   std::vector<SeriesRow> rows{first};
   std::transform(coarser.begin() + 1, coarser.end(), std::back_inserter(rows), row_of);
   refined.error_estimate = errors_of(row, rows);
@@ -66,10 +66,9 @@ void estimate_errors(RefinedState &refined, const SeriesRow &row, const SeriesRo
 
 SteadyState second_coarser(const Case &input, const SteadyState &fine) {
   try {
-    return on_coarser(fine, second_mesh.nodes, second_mesh.longer);
+    return on_coarser(fine, second_mesh);
   } catch (const NumericsFailure &) {
-    return on_mesh(input, static_cast<int>(second_mesh.nodes * static_cast<double>(fine.system->nodes())),
-                   fine);
+    return on_mesh(input, nodes_of(second_mesh, fine.system->nodes()), fine);
   }
 }
 
@@ -128,8 +127,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
   refined.state.system->require_stiffness(refined.state.unknowns);
   SeriesRow row = row_of(refined.state);
   if (given || finer_mesh(nodes) > most_nodes) { // no finer mesh: coarser ones tell the error
-    const int fewer = std::max(3, nodes * 3 / 4);
-    const SteadyState coarser = on_mesh(input, fewer, refined.state);
+    const SteadyState coarser = on_mesh(input, nodes_of(first_mesh, nodes), refined.state);
     const SeriesRow coarse = row_of(coarser);
     estimate_errors(refined, row, coarse, {coarser, second_coarser(input, refined.state)});
     if (!given && !agree(row, coarse, input.accuracy))

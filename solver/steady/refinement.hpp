@@ -45,14 +45,12 @@ SeriesRow row_of(const SteadyState &state);
 
 // Of a train: two meshes of the membrane may have one wall and err alike. How much a wall errs depends on where its panels
 // end beside the capsules, and with either sign: one other wall may agree by accident.
-inline constexpr std::array longer_panels{10.0 / 9, 5.0 / 4};
+inline constexpr std::array coarser_walls{CoarserMesh{.longer = 10.0 / 9}, CoarserMesh{.longer = 5.0 / 4}};
 
-// One coarser mesh may agree by accident; in one of many quantities it often does. The second one has a share of the nodes, and
-// a coarser wall, because meshes that share a wall err alike.
-struct CoarserMesh {
-  double nodes, longer; // share of the nodes, and panels of the wall so many times longer
-};
-inline constexpr CoarserMesh second_mesh{0.875, longer_panels[1]};
+// One coarser mesh may agree by accident; in one of many quantities it often does. The second one has a coarser wall, too,
+// because meshes that share a wall err alike.
+inline constexpr CoarserMesh first_mesh{.nodes = 0.75},
+    second_mesh{.nodes = 0.875, .longer = coarser_walls[1].longer};
 
 // Of `further` of a train, as of all else: the differences from coarser meshes and the error of the quadrature.
 std::map<std::string, double> errors_of_further(const RefinedState &refined, const SteadyRecord &record,
