@@ -111,14 +111,21 @@ std::vector<CsvRow> read_csv(const fs::path &file) {
 }
 
 std::vector<CsvRow> read_csv(const fs::path &file, char comment) {
-  std::string mistakes;
+  LineMistakes mistakes;
   std::vector<CsvRow> rows = read_csv(file, comment, mistakes);
   if (!mistakes.empty())
-    throw InputError(mistakes);
+    throw InputError(in_order(mistakes));
   return rows;
 }
 
-std::vector<CsvRow> read_csv(const fs::path &file, char comment, std::string &mistakes) {
+std::string in_order(const LineMistakes &mistakes) {
+  std::string text;
+  for (const auto &[line, message] : mistakes)
+    text += message;
+  return text;
+}
+
+std::vector<CsvRow> read_csv(const fs::path &file, char comment, LineMistakes &mistakes) {
   std::string text = read_file(file);
   const auto mistake = [&](std::size_t line, const std::string &message) {
     return csv_error(file, line, message) + how_to_save + '\n';
@@ -131,7 +138,7 @@ std::vector<CsvRow> read_csv(const fs::path &file, char comment, std::string &mi
     text.erase(0, byte_order_mark.size());
   Parsed parsed = parse(text, comment);
   for (; !parsed.mistake.empty(); parsed = parse(text, comment)) {
-    mistakes += mistake(parsed.quote_line, parsed.mistake);
+    mistakes.emplace(parsed.quote_line, mistake(parsed.quote_line, parsed.mistake));
     constexpr const char *line_ends = "\r\n";
     const std::size_t before = text.find_last_of(line_ends, parsed.quote_at);
     const std::size_t begin = before == std::string::npos ? 0 : before + 1;

@@ -21,9 +21,12 @@ struct CsvRow {
 std::vector<CsvRow> read_csv(const std::filesystem::path &file);
 // Lines that begin with this character are rows of one field, as they stand; the first of the others names the columns.
 std::vector<CsvRow> read_csv(const std::filesystem::path &file, char comment);
+// What is wrong with lines of a file, as InputError says it, by the number of the line.
+using LineMistakes = std::multimap<std::size_t, std::string>;
+std::string in_order(const LineMistakes &mistakes);
 // The same, and what is wrong with quotes that are not closed is told with other mistakes: it is added to these, and the lines
 // with such quotes are left out.
-std::vector<CsvRow> read_csv(const std::filesystem::path &file, char comment, std::string &mistakes);
+std::vector<CsvRow> read_csv(const std::filesystem::path &file, char comment, LineMistakes &mistakes);
 
 // The columns of a table of numbers, by name. Throws as read_csv, and InputError, with its row and column, for what is no
 // number, or none that is allowed.

@@ -143,11 +143,11 @@ std::vector<std::string> trimmed_fields(const CsvRow &row) {
 // The rows of a file with these columns. What has no column is as in `blank`.
 std::vector<Expectation> read_table(const fs::path &table, std::span<const Column> columns,
                                     const Expectation &blank) {
-  std::string errors;
+  LineMistakes errors;
   std::vector<CsvRow> lines = read_csv(table, '#', errors);
   std::erase_if(lines, [](const CsvRow &row) { return trimmed(row.fields.at(0)).starts_with("#"); });
   const auto complain = [&](std::size_t line, const std::string &message) {
-    errors += csv_error(table, line, message);
+    errors.emplace(line, csv_error(table, line, message));
   };
   std::vector<std::string> names;
   std::ranges::transform(columns, std::back_inserter(names), &Column::name);
@@ -172,7 +172,7 @@ std::vector<Expectation> read_table(const fs::path &table, std::span<const Colum
     rows.push_back(std::move(row));
   }
   if (!errors.empty())
-    throw InputError(errors);
+    throw InputError(in_order(errors));
   return rows;
 }
 
