@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <iterator>
 #include <numbers>
+#include <optional>
+#include <string_view>
 
 namespace capsule {
 namespace {
@@ -57,6 +60,42 @@ Scales scales_at(const Case &physics, double flow_rate) {
           .per_length = 1 / radius,
           .resistance = physics.physical.resistivity.si / (pi * radius)};
 }
+
+double flow_rate_at(const Case &physics, double capillary_number) {
+  const auto &p = physics.physical;
+  return capillary_number * pi * p.tube_radius.si * p.tube_radius.si * shear_modulus(physics) /
+         p.viscosity.si;
+}
+
+// The physical quantities behind dimensionless keys of steady states.
+struct Counterpart {
+  std::string_view key;
+  const char *name;
+  Quantity PhysicalSpec::*given;
+  Dimension dimension;
+  std::optional<double> (*si)(const Case &physics, double value); // none if the case has none
+};
+const std::array counterparts{
+    Counterpart{
+        flow_key, "physical.flow_rate", &PhysicalSpec::flow_rate, dimension::flow_rate,
+        [](const Case &physics, double value) { return std::optional(flow_rate_at(physics, value)); }},
+    Counterpart{flow_key, "physical.pressure", &PhysicalSpec::pressure, dimension::pressure,
+                [](const Case &physics, double value) -> std::optional<double> {
+                  const double given = physics.physical.pressure.si;
+                  if (given == 0)
+                    return std::nullopt;
+                  return given * flow_rate_at(physics, value) / flow_rate(physics);
+                }},
+    Counterpart{"capsule.radius", "physical.capsule_radius", &PhysicalSpec::capsule_radius, dimension::length,
+                [](const Case &physics, double value) {
+                  return std::optional(value * physics.physical.tube_radius.si);
+                }},
+    Counterpart{bending_key, "physical.bending_modulus", &PhysicalSpec::bending_modulus, dimension::energy,
+                [](const Case &physics, double value) {
+                  const double radius = physics.physical.tube_radius.si;
+                  return std::optional(value * shear_modulus(physics) * radius * radius);
+                }},
+};
 
 // Without the digits in which decimal fractions differ from doubles: 4e-6/5e-6 is 0.8.
 double rounded(double value) {
@@ -174,28 +213,32 @@ TypedUnit own_unit(const Case &physics, const Dimension &of) {
 }
 
 std::vector<Physical> physical_of(const Case &physics, const std::string &key, double value) {
-  const auto &p = physics.physical;
-  const double shear = shear_modulus(physics), radius = p.tube_radius.si;
   std::vector<Physical> all;
-  if (shear == 0)
+  if (shear_modulus(physics) == 0)
     return all;
-  const auto add = [&](const char *name, double si, const Dimension &of, const TypedUnit &unit) {
-    all.push_back({name, si, of, fmt::format("{:.4g} {}", si / unit.si, unit.name)});
-  };
-  if (key == flow_key) {
-    const double rate = value * pi * radius * radius * shear / p.viscosity.si;
-    add("physical.flow_rate", rate, dimension::flow_rate, own_unit(physics, dimension::flow_rate));
-    if (p.pressure.si > 0)
-      add("physical.pressure", p.pressure.si * rate / flow_rate(physics), dimension::pressure,
-          own_unit(physics, dimension::pressure));
-  } else if (key == "capsule.radius")
-    add("physical.capsule_radius", value * radius, dimension::length,
-        p.capsule_radius.si > 0 ? typed_unit(p.capsule_radius, dimension::length)
-                                : own_unit(physics, dimension::length));
-  else if (key == bending_key)
-    add("physical.bending_modulus", value * shear * radius * radius, dimension::energy,
-        typed_unit(p.bending_modulus, dimension::energy));
+  for (const Counterpart &counterpart : counterparts)
+    if (counterpart.key == key)
+      if (const std::optional<double> si = counterpart.si(physics, value)) {
+        const Dimension &of = counterpart.dimension;
+        const Quantity &given = physics.physical.*counterpart.given;
+        const TypedUnit unit = given.si > 0 ? typed_unit(given, of) : own_unit(physics, of);
+        all.push_back({counterpart.name, *si, of, fmt::format("{:.4g} {}", *si / unit.si, unit.name)});
+      }
   return all;
+}
+
+std::vector<std::string> physical_keys_of(const std::string &key) {
+  std::vector<std::string> names;
+  for (const Counterpart &counterpart : counterparts)
+    if (counterpart.key == key)
+      names.emplace_back(counterpart.name);
+  return names;
+}
+
+std::vector<std::string> physical_keys() {
+  std::vector<std::string> names;
+  std::ranges::transform(counterparts, std::back_inserter(names), &Counterpart::name);
+  return names;
 }
 
 std::string flow_rate_text(const Case &physics, double capillary_number) {
@@ -238,9 +281,7 @@ Scales physical_scales(const Case &physics) {
 }
 
 Scales scales_by_capillary_number(const Case &physics) {
-  const auto &p = physics.physical;
-  return scales_at(physics, physics.flow.capillary_number * pi * p.tube_radius.si * p.tube_radius.si *
-                                shear_modulus(physics) / p.viscosity.si);
+  return scales_at(physics, flow_rate_at(physics, physics.flow.capillary_number));
 }
 
 } // namespace capsule

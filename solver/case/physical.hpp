@@ -49,6 +49,10 @@ struct Physical {
 // Of the capillary number a flow rate and, if the case gives one, a pressure; of the radius and the bending stiffness. None
 // where the modulus is unknown: without physical units, and in a fit.
 std::vector<Physical> physical_of(const Case &physics, const std::string &key, double value);
+// Their keys, of whatever case: "physical.flow_rate" and "physical.pressure", either of which sets flow.capillary_number.
+std::vector<std::string> physical_keys_of(const std::string &key);
+// All that there are, of any key.
+std::vector<std::string> physical_keys();
 // The flow rate at any capillary number, in the unit in which the case gives its own: "0.253 nl/s". Empty where the modulus
 // is unknown: without physical units, and in a fit.
 std::string flow_rate_text(const Case &physics, double capillary_number);

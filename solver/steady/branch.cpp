@@ -222,9 +222,10 @@ private:
 // In words: the keys that can be typed.
 std::string where_branches_go(const Case &input) {
   std::vector<std::string> names = parameters_of_steady_states();
-  if (has_physical(input))
-    names.insert(names.begin(), {"physical.flow_rate", "physical.pressure", "physical.capsule_radius",
-                                 "physical.bending_modulus"});
+  if (has_physical(input)) {
+    const std::vector<std::string> physical = physical_keys();
+    names.insert(names.begin(), physical.begin(), physical.end());
+  }
   return fmt::format("branches go along {}", fmt::join(names, ", "));
 }
 
@@ -267,8 +268,10 @@ BranchEnd physical_end(const Case &input, const Key &key, const std::string &to,
     throw InputError(fmt::format("error: no branch along '{}': it is a key of `capsule fit`\n{}\n", key.name,
                                  where_branches_go(input)));
   Case there = input;
-  if (key.name == "physical.flow_rate" || key.name == "physical.pressure") // each in place of the other
-    there.physical.flow_rate = there.physical.pressure = {};
+  const std::vector<std::string> of_flow = physical_keys_of(flow_key);
+  if (std::ranges::find(of_flow, key.name) != of_flow.end()) // each in place of the others
+    for (const std::string &name : of_flow)
+      reset_value(*find_key(name), there);
   if (const auto complaint = set_value(key, to, there))
     throw InputError(fmt::format("error: {}: {}\n{}\n", option, complaint->message, complaint->hint));
   for (const PhysicalComplaint &complaint : physical_complaints(there))

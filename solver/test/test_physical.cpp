@@ -3,13 +3,17 @@
 #include "case/case_file.hpp"
 #include "case/identity.hpp"
 #include "case/key_path.hpp"
+#include "case/keys.hpp"
 #include "case/physical.hpp"
 #include "temporary_directory.hpp"
+#include <algorithm>
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numbers>
+#include <variant>
 
 using namespace capsule;
 
@@ -168,6 +172,16 @@ BOOST_AUTO_TEST_CASE(quantities_of_a_dimensionless_key) {
   check(physics, "capsule.radius", "physical.capsule_radius", 4e-6, "8 um");
   check(physics, "membrane.bending_ratio", "physical.bending_modulus", 5e-15, "10 fJ");
   BOOST_TEST(physical_of(physics, "flow.viscosity_ratio", 1).empty());
+  BOOST_TEST(physical_keys_of("flow.viscosity_ratio").empty());
+  std::vector<std::string> of_parameters; // branches go along what these are keys of
+  for (const std::string &key : parameters_of_steady_states())
+    std::ranges::copy(physical_keys_of(key), std::back_inserter(of_parameters));
+  std::vector<std::string> all = physical_keys();
+  std::ranges::sort(of_parameters);
+  std::ranges::sort(all);
+  BOOST_TEST(all == of_parameters, boost::test_tools::per_element());
+  for (const std::string &name : all)
+    BOOST_TEST(std::holds_alternative<Measured>(find_key(name)->field), name);
   const Case driven = only_run(
       replaced(laboratory, "flow_rate = \"0.1 nl/s\"", "pressure = \"20 Pa\"\npore_length = \"100 um\""));
   check(driven, "flow.capillary_number", "physical.pressure", 20, "40 Pa");
