@@ -42,6 +42,10 @@ double natural_size(const std::string &key, double value) {
   return key == "capsule.inflation" ? 1 + value : std::abs(value);
 }
 
+bool is_critical(const std::string &key, double from, double fold) {
+  return key == flow_key && fold > from;
+}
+
 KeyPath::KeyPath(std::string key, const Case &from, double to)
     : key_(std::move(key)), start_(from), from_(number(key_, from)), to_(to) {}
 
@@ -84,7 +88,7 @@ std::string KeyPath::text(double part, std::optional<double> error) const {
 }
 
 std::string KeyPath::fold_text(double part, std::optional<double> error) const {
-  if (key_ != flow_key || to_ < from_)
+  if (!is_critical(key_, from_, value(part)))
     return text(part, error);
   const bool has_rate = !flow_rate_text(start_, value(part)).empty();
   return fmt::format("{}, the critical {}", text(part, error), has_rate ? "flow rate" : "capillary number");

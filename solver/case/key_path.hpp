@@ -19,6 +19,9 @@ Case with_number(Case input, const std::string &key, double value);
 // What changes of a key's value are measured by: the value itself, and for the inflation 1 + alpha_p, the stretch.
 double natural_size(const std::string &key, double value);
 
+// Whether a fold at this value, on a way that begins at another one, is met as the flow grows: it is the critical flow rate.
+bool is_critical(const std::string &key, double from, double fold);
+
 // A key of a case on its way from the value that it has there, at part 0, to another one, at part 1; further, too.
 // Between positive values the eighth root changes evenly, which suits values of any magnitude, and zero: a way from
 // 1e-2 to 1e-5, or to 0, has no part that needs much shorter steps than the others. The inflation changes evenly.

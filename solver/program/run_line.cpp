@@ -1,6 +1,6 @@
 #include "program/run_line.hpp"
 #include "base/text.hpp"
-#include "case/keys.hpp"
+#include "case/key_path.hpp"
 #include "case/physical.hpp"
 #include "observe/outcome.hpp"
 #include "observe/unit_of.hpp"
@@ -32,10 +32,10 @@ std::vector<std::pair<std::string, std::string>> told_quantities(const RunResult
 }
 
 // Whether it ends the steady states of a flow that grows: the last fold, behind which the membrane runs away.
-bool is_critical(const FoldPlace &fold, const RunResult &result) {
+bool ends_steady_states(const FoldPlace &fold, const RunResult &result) {
   const Summary &summary = *result.summary;
-  return summary.along == flow_key && summary.status == word_of(Status::unbounded) &&
-         fold.value == summary.folds.back().value && fold.value > result.input.physics.flow.capillary_number;
+  return summary.status == word_of(Status::unbounded) && fold.value == summary.folds.back().value &&
+         is_critical(summary.along, result.input.physics.flow.capillary_number, fold.value);
 }
 
 std::string in_own_units(const RunResult &result) {
@@ -54,7 +54,7 @@ std::string in_own_units(const RunResult &result) {
       }
     };
     for (const FoldPlace &fold : summary.folds)
-      tell("fold", fold.value, is_critical(fold, result));
+      tell("fold", fold.value, ends_steady_states(fold, result));
     if (const auto end = summary.quantities.find("time"); end != summary.quantities.end())
       tell("end", end->second, false);
     return places;
