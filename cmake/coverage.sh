@@ -14,7 +14,7 @@ ctest --test-dir "$build" -j2 --output-on-failure \
 rm -rf "$build/counts"
 mkdir "$build/counts"
 cd "$build" # from where the compiler saw the sources
-find CMakeFiles/solver.dir CMakeFiles/texts.dir CMakeFiles/capsule.dir CMakeFiles/test_*.dir -name '*.gcda' \
+find CMakeFiles/solver.dir CMakeFiles/quickly.dir CMakeFiles/capsule.dir CMakeFiles/test_*.dir -name '*.gcda' \
   -exec gcov --long-file-names --preserve-paths {} \; >/dev/null 2>&1
 mv ./*.gcov counts
 awk -F: '
