@@ -12,7 +12,7 @@ namespace {
 // A layer without the wall, with what the wall answers to it.
 template <class Answer>
 Matrix with_wall(Matrix layer, const Answer &answer_of_wall, const Matrix &at_wall) {
-  using Scalar = Answer::Scalar;
+  using Scalar = typename Answer::Scalar;
   const Answer answer = answer_of_wall * at_wall.cast<Scalar>();
   layer -= answer.template cast<double>();
   return layer;

@@ -61,7 +61,7 @@ Vector WallInverse::answer_of_points(const Vector &left_sides) const {
 
 template <class Answer>
 Answer WallInverse::answers_of_points(const RowMatrix &from_points) const {
-  using Scalar = Answer::Scalar;
+  using Scalar = typename Answer::Scalar;
   Answer answers = Answer::Zero(from_points.rows(), from_points.cols());
   for (int k = 0; k < 2; ++k) {
     const Answer half = (0.5 * folded(from_points, signs[k])).cast<Scalar>();
@@ -92,7 +92,7 @@ Vector WallInverse::answer(const Vector &left_sides) const {
 
 template <class Answer>
 Answer WallInverse::answers(const RowMatrix &from_unknowns) const {
-  using Scalar = Answer::Scalar;
+  using Scalar = typename Answer::Scalar;
   if (!is_mirrored())
     return from_unknowns.cast<Scalar>() * whole_.cast<Scalar>();
   const Eigen::Index n = unknowns_ / 2;
