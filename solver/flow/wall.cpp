@@ -32,14 +32,16 @@ Vector wall_edges(const Pore &pore, const FlowResolution &resolution) {
     const Vector edges = graded_edges(from, to, first_panel, pore.entrance_arc, Graded::first);
     return edges.tail(edges.size() - 1);
   };
-  const Vector before = outside(lip, pore.entrance_arc, resolution.lip_panel);
-  Vector behind; // both lips' sides are alike, but tractions jump where the wall meets the outlet
-  if (two_mouths) {
+  Vector before, behind;
+  if (two_mouths) { // tractions jump where the wall meets the outlet; the other mouth is a mirror image
     const double outlet = up_to_outlet(pore).entrance_arc;
     const Vector near = outside(lip, outlet, resolution.lip_panel);
     const Vector far = outside(outlet, pore.entrance_arc, near[near.size() - 1] - near[near.size() - 2]);
-    behind.resize(near.size() + far.size());
-    behind << lip - far.reverse().array(), lip - near.reverse().array();
+    before.resize(near.size() + far.size());
+    before << near, far;
+    behind = lip - before.reverse().array();
+  } else {
+    before = outside(lip, pore.entrance_arc, resolution.lip_panel);
   }
   Vector edges(behind.size() + tube.size() + before.size());
   edges << behind, tube, before;
@@ -104,7 +106,10 @@ Wall::Wall(const Pore &pore, const FlowResolution &resolution)
     closed_form_ = poiseuille_flow;
     base_pressure_drop_ = poiseuille_pressure_drop(pore.entrance_arc);
   } else {
-    inverse_ = WallInverse(weights_.asDiagonal() * lu_inverse(matrix()));
+    // Between two mouths it is whole as well: a march needs less of it (compressed_wall.hpp).
+    inverse_ = WallInverse(pore.shape == PoreShape::two_mouths
+                               ? mirrored_inverse().matrix()
+                               : RowMatrix(weights_.asDiagonal() * lu_inverse(matrix())));
     solve_base_flow();
   }
 }

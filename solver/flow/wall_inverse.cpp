@@ -107,8 +107,27 @@ Answer WallInverse::answers(const RowMatrix &from_unknowns) const {
 template RowMatrix WallInverse::answers(const RowMatrix &from_unknowns) const;
 template RoughMatrix WallInverse::answers(const RowMatrix &from_unknowns) const;
 
+// Half of the sum of both halves is what the first points answer to themselves, half of the difference what they answer to
+// the images of others.
 RowMatrix WallInverse::matrix() const {
-  return is_mirrored() ? answers<RowMatrix>(RowMatrix::Identity(unknowns_, unknowns_)) : whole_;
+  if (!is_mirrored())
+    return whole_;
+  const Eigen::Index n = unknowns_ / 2, half = n / 2;
+  const RowMatrix own = 0.5 * (halves_[0] + halves_[1]), of_images = 0.5 * (halves_[0] - halves_[1]);
+  RowMatrix whole(unknowns_, unknowns_);
+  for (const Eigen::Index to : {0, 1})
+    for (const Eigen::Index from : {0, 1}) {
+      const double mirror = from == 0 ? -1 : 1; // of a component
+      auto block = whole.block(to * (n + 1), from * (n + 1), n, n);
+      block.topLeftCorner(half, half) = own.block(to * half, from * half, half, half);
+      block.topRightCorner(half, half) =
+          mirror * of_images.block(to * half, from * half, half, half).rowwise().reverse();
+      block.bottomRows(half) = (to == from ? 1 : -1) * block.topRows(half).reverse();
+      block.noalias() += column_.segment(to * n, n) / corner_ * row_.segment(from * n, n).transpose();
+    }
+  whole.col(n) << -column_.head(n) / corner_, 1 / corner_, -column_.tail(n) / corner_;
+  whole.row(n) << -row_.head(n).transpose() / corner_, 1 / corner_, -row_.tail(n).transpose() / corner_;
+  return whole;
 }
 
 } // namespace capsule

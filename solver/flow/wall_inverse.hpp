@@ -1,7 +1,7 @@
 #pragma once
 // A^(-1) of wall.hpp: from what stands on the left sides of the wall's equations to its unknowns. Both are a component
 // along x at n points, a value of the outlet, and a component along r at the points.
-//   A tube is its own mirror image. To velocities that are mirror symmetric its wall answers with such forces, and to
+//   A tube, or a pore with two mouths, is its own mirror image. To velocities that are mirror symmetric its wall answers with such forces, and to
 // antisymmetric ones with such: each takes a matrix of half the size, which needs an eighth of the work to be inverted and a
 // quarter of it in products. The outlet, at one end only, borders the two. Throws nothing.
 #include "base/linear_algebra.hpp"
