@@ -18,7 +18,7 @@ constexpr double safety = 0.9;    // of a step's length
 constexpr double most_growth = 2; // from step to step
 // A matrix is found again after so many steps, or when it shows its age.
 constexpr int mobility_lasts = 50, load_jacobian_lasts = 20;
-constexpr int mobility_lasts_at_least = 20, mobility_is_fresh = 8;
+constexpr int mobility_lasts_at_least = 20;
 constexpr int many_corrections = 4;
 constexpr double old_factors = 0.3; // relative change of the share
 // What the rate may correct, in tolerances, before the mobility is found again; and the part of it that is left.
@@ -269,7 +269,7 @@ bool SplitBdf::try_step() {
   memory_.left_over = root_mean_square(last) / tolerance_;
   const double left = left_of_correction * memory_.left_over;
   if (!(left < 1)) {
-    if (memory_.mobility.age > mobility_is_fresh)
+    if (memory_.mobility.age > 0)
       freeze_mobility();
     else
       shorten(left);
