@@ -28,7 +28,7 @@ public:
   RowMatrix matrix() const;
 
 private:
-  Vector answer_of_points(const Vector &at_points) const;
+  Vector answer_of_points(const Vector &left_sides) const;
   template <class Answer = RowMatrix>
   Answer answers_of_points(const RowMatrix &from_points) const;
 

@@ -87,21 +87,21 @@ BOOST_AUTO_TEST_CASE(entrance_loss_of_the_hyperbolic_mouth) {
 
 // Of equations that do not change when the points are mirrored, but for the outlet's, which is at one end.
 BOOST_AUTO_TEST_CASE(mirrored_inverse_is_that_of_the_whole_matrix) {
-  constexpr Eigen::Index n = 6;
+  constexpr int n = 6;
   const Vector mirror = (Vector(2 * n) << -Vector::Ones(n), Vector::Ones(n)).finished();
   RowMatrix between_points(2 * n, 2 * n);
-  for (Eigen::Index i = 0; i < 2 * n; ++i)
-    for (Eigen::Index j = 0; j < 2 * n; ++j)
+  for (int i = 0; i < 2 * n; ++i)
+    for (int j = 0; j < 2 * n; ++j)
       between_points(i, j) = std::sin(1.0 + 1.3 * i + 2.7 * i * j + 0.4 * j);
-  const auto mirrored = [&](Eigen::Index i) { return i < n ? n - 1 - i : 3 * n - 1 - i; };
+  const auto mirrored = [&](int i) { return i < n ? n - 1 - i : 3 * n - 1 - i; };
   RowMatrix symmetric = between_points;
-  for (Eigen::Index i = 0; i < 2 * n; ++i)
-    for (Eigen::Index j = 0; j < 2 * n; ++j)
+  for (int i = 0; i < 2 * n; ++i)
+    for (int j = 0; j < 2 * n; ++j)
       symmetric(i, j) += mirror[i] * mirror[j] * between_points(mirrored(i), mirrored(j));
   RowMatrix whole = RowMatrix::Zero(2 * n + 1, 2 * n + 1);
   const std::vector<Eigen::Index> points = {0, 1, 2, 3, 4, 5, 7, 8, 9, 10, 11, 12};
   whole(points, points) = symmetric;
-  for (Eigen::Index i = 0; i <= 2 * n; ++i) {
+  for (int i = 0; i <= 2 * n; ++i) {
     whole(i, n) = std::cos(2.0 * i);
     whole(n, i) = std::cos(1 + 5.0 * i);
   }

@@ -264,9 +264,10 @@ bool energy(const SurfaceViscosity &of_membrane) {
   fmt::print("power {:.6f}, of it stored {:.6f}, dissipated {:.6f} in the liquid, {:.6f} in the membrane\n",
              power, stored, dissipated, in_membrane);
   const double missing = std::abs(power - stored - dissipated - in_membrane) / power;
-  return check(std::abs(pressure / flow.wall().base_pressure_drop() - 1) < 1e-12,
-               "the pressure is constant") &
-         check(missing < 1e-4, fmt::format("energy is balanced to {:.1e}", missing));
+  const bool is_constant =
+      check(std::abs(pressure / flow.wall().base_pressure_drop() - 1) < 1e-12, "the pressure is constant");
+  const bool is_balanced = check(missing < 1e-4, fmt::format("energy is balanced to {:.1e}", missing));
+  return is_constant && is_balanced;
 }
 
 // The flow rate at a time, by the polynomial through six rows.
