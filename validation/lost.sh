@@ -5,7 +5,7 @@
 . "$(dirname "$0")/lib/program.sh"
 short_case | sed '/^accuracy/d' >case.toml
 echo 'until.time = 3
-sweep.accuracy = [1e-5, 1e-2, 5e-3, 2e-3]' >>case.toml # the first one is long enough to be killed
+sweep.accuracy = [1e-8, 1e-2, 5e-3, 2e-3]' >>case.toml # the first one is long enough to be killed
 
 signal_first() { # SIGNAL CODE: to the process of the first run
   "$capsule" run case.toml --out out --jobs 2 >log 2>&1 &
@@ -16,11 +16,11 @@ signal_first() { # SIGNAL CODE: to the process of the first run
   code=0
   wait "$parent" || code=$?
   [ "$code" -eq "$2" ] || fail "ended with $code, not with $2"
-  [ "$(ls out/*/summary.json | wc -l)" -eq 3 ] && [ ! -e out/accuracy=1e-5/summary.json ] || fail 'a lost run costs others'
+  [ "$(ls out/*/summary.json | wc -l)" -eq 3 ] && [ ! -e out/accuracy=1e-8/summary.json ] || fail 'a lost run costs others'
   child=
 }
 signal_first KILL 4
-grep -q '^error: accuracy=1e-5: its process was ended by signal 9' log || fail 'the lost run is not named'
+grep -q '^error: accuracy=1e-8: its process was ended by signal 9' log || fail 'the lost run is not named'
 grep -q '^error: 1 of 4 runs could not be computed; the same command' log || fail 'what is to do is not said'
 signal_first TERM 130
 grep -q '^interrupted: 1 of 4 runs to finish; the same command goes on' log || fail 'what is to do is not said'

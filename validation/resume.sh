@@ -3,7 +3,8 @@
 #   sh validation/resume.sh path/to/capsule
 . "$(dirname "$0")/lib/program.sh"
 cat >case.toml <<'TOML'
-accuracy = 1e-5 # long enough to be interrupted
+accuracy = 1e-5
+mesh.membrane = 200 # long enough to be interrupted
 pore.shape = "two-mouths"
 pore.exit_x = 6
 flow.drive = "pressure"
