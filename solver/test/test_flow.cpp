@@ -114,9 +114,10 @@ BOOST_AUTO_TEST_CASE(rigid_sphere_between_two_mouths) {
 
 // What a second mouth does to a sphere in a long pore is a sum of Stokes flows that decay along a tube. The slowest one goes
 // as Re C exp(-b d), b = 4.466299 + 1.467470 i: of three values at even distances, the third follows from the others, to
-// 1.9e-3. The reservoirs reach so far that their ends do not count.
+// 1.3e-3. Farther on the speed has no digits left: it is good to 2e-9. The reservoirs reach so far that their ends do not
+// count.
 BOOST_AUTO_TEST_CASE(a_second_mouth_is_felt_less_and_less) {
-  constexpr double exit = 8, a = 0.5, step = 0.4;
+  constexpr double exit = 8, a = 0.5, step = 0.3;
   const RigidSpheres two_mouths({.shape = PoreShape::two_mouths, .exit_x = exit, .entrance_distance = 300}),
       one_mouth({.exit_x = 2 * exit, .entrance_distance = 300});
   std::array<RigidSphere, 3> with{}, without{};
@@ -131,7 +132,7 @@ BOOST_AUTO_TEST_CASE(a_second_mouth_is_felt_less_and_less) {
   for (const auto value : {&RigidSphere::v_g, &RigidSphere::pressure_drop}) {
     const auto felt = [&](std::size_t k) { return with.at(k).*value - without.at(k).*value; };
     BOOST_TEST(std::abs(felt(0)) < 4 * std::exp(-decay * (2 - a))); // from its front on
-    BOOST_TEST(std::abs(felt(2) / (sum * felt(1) - product * felt(0)) - 1) < 3e-3);
+    BOOST_TEST(std::abs(felt(2) / (sum * felt(1) - product * felt(0)) - 1) < 2e-3);
   }
 }
 
