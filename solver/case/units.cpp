@@ -362,7 +362,7 @@ std::string unit_text(const Dimension &of) {
 
 TypedUnit typed_unit(const Quantity &quantity, const Dimension &of) {
   char *unit = nullptr;
-  const double typed = quantity.written.empty() ? 0 : std::strtod(quantity.written.c_str(), &unit);
+  const double typed = std::strtod(quantity.written.c_str(), &unit); // 0 where nothing was typed
   return typed > 0 ? TypedUnit{trimmed(unit), quantity.si / typed} : TypedUnit{unit_text(of), 1};
 }
 

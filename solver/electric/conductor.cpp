@@ -69,7 +69,7 @@ Vector at_panels(const MembraneMesh &mesh, const Vector &potential) {
   Vector values(mesh.points);
   for (const MembraneMesh::Part &part : mesh.parts)
     values.segment(part.first_point, part.points()).noalias() =
-        part.at_panels.even_field(0, potential.segment(part.first_node, part.nodes()));
+        part.at_panels.even[0] * potential.segment(part.first_node, part.nodes());
   return values;
 }
 

@@ -32,13 +32,24 @@ Matrix double_with_wall(const Interaction &interaction, const Answer &answer_of_
 } // namespace
 
 NodalLayers nodal_layers(const Interaction &interaction) {
-  const RowMatrix answer = interaction.answer_of_wall();
-  NodalLayers layers;
-  layers.single_answer = stokeslet_factor * answer * interaction.single_at_wall();
-  layers.dbl_answer = answer * interaction.double_at_wall();
-  layers.single = stokeslet_factor * interaction.single_layer() - layers.single_answer;
-  layers.dbl = interaction.double_layer() - layers.dbl_answer;
-  return layers;
+  return {stokeslet_factor * interaction.single_layer(), interaction.double_layer(),
+          interaction.answer_of_wall(), stokeslet_factor * interaction.single_at_wall(),
+          interaction.double_at_wall()};
+}
+
+Vector NodalLayers::velocity_of(const Vector &load) const {
+  Vector velocity = single * load;
+  if (answer.cols() > 0) // BLAS takes no matrix without columns
+    velocity -= answer * (single_at_wall * load);
+  return velocity;
+}
+
+Matrix NodalLayers::single_with_wall() const {
+  return single - answer * single_at_wall;
+}
+
+Matrix NodalLayers::double_with_wall() const {
+  return dbl - answer * double_at_wall;
 }
 
 Flow::Flow(Wall wall, MembraneMesh mesh, const FlowParameters &parameters, double solver_tolerance)

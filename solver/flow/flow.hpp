@@ -33,12 +33,16 @@ struct FlowParameters {
   std::vector<Image> images = {};
 };
 
-// Both layers on nodal densities with what the wall answers, 2N x 2N, and this answer.
+// Both layers on nodal densities, 2N x 2N, and what the wall answers to them. Products with a few densities are cheaper than
+// the matrices with the wall.
 struct NodalLayers {
-  Matrix single;        // (S_MM - C A^(-1) S_BM)/(8 pi)
-  Matrix dbl;           // D_MM - C A^(-1) D_BM
-  Matrix single_answer; // C A^(-1) S_BM/(8 pi)
-  Matrix dbl_answer;    // C A^(-1) D_BM
+  Matrix single, dbl;                    // S_MM/(8 pi), D_MM
+  RowMatrix answer;                      // C A^(-1)
+  Matrix single_at_wall, double_at_wall; // S_BM/(8 pi), D_BM
+
+  Vector velocity_of(const Vector &load) const; // (S_MM - C A^(-1) S_BM) load/(8 pi)
+  Matrix single_with_wall() const;              // (S_MM - C A^(-1) S_BM)/(8 pi)
+  Matrix double_with_wall() const;              // D_MM - C A^(-1) D_BM
 };
 NodalLayers nodal_layers(const Interaction &interaction);
 

@@ -118,14 +118,14 @@ std::vector<Eigen::Index> MembraneMesh::rows(std::size_t part) const {
 
 Vector MembraneMesh::Part::values_at_panels(const Vector &nodal) const {
   Vector values(2 * points());
-  values << at_panels.even_field(0, nodal.head(nodes())), at_panels.odd_field(0, nodal.tail(nodes()));
+  values << at_panels.even[0] * nodal.head(nodes()), at_panels.odd[0] * nodal.tail(nodes());
   return values;
 }
 
 Matrix MembraneMesh::Part::on_nodes(const RowMatrix &on_panels) const {
   Matrix result(on_panels.rows(), 2 * nodes());
-  result.leftCols(nodes()).noalias() = on_panels.leftCols(points()) * at_panels.even[0];
-  result.rightCols(nodes()).noalias() = on_panels.rightCols(points()) * at_panels.odd[0];
+  result.leftCols(nodes()) = on_panels.leftCols(points()) * at_panels.even[0];
+  result.rightCols(nodes()) = on_panels.rightCols(points()) * at_panels.odd[0];
   return result;
 }
 
@@ -151,13 +151,13 @@ MembraneShape shape_at(const MembraneMesh &mesh, const Vector &position) {
     const auto r = nodes.r.segment(p.first_node, p.nodes());
     shape.targets.bend_x.segment(p.first_node, p.nodes()).noalias() = p.even_bend * x;
     shape.targets.bend_r.segment(p.first_node, p.nodes()).noalias() = p.odd_bend * r;
-    nodes.x_zeta.segment(p.first_node, p.nodes()) = p.at_nodes.even_field(1, x);
-    nodes.r_zeta.segment(p.first_node, p.nodes()) = p.at_nodes.odd_field(1, r);
+    nodes.x_zeta.segment(p.first_node, p.nodes()) = p.at_nodes.even[1] * x;
+    nodes.r_zeta.segment(p.first_node, p.nodes()) = p.at_nodes.odd[1] * r;
     nodes.weights.segment(p.first_node, p.nodes()) = p.at_nodes.weights;
-    panels.x.segment(p.first_point, p.points()) = p.at_panels.even_field(0, x);
-    panels.r.segment(p.first_point, p.points()) = p.at_panels.odd_field(0, r);
-    panels.x_zeta.segment(p.first_point, p.points()) = p.at_panels.even_field(1, x);
-    panels.r_zeta.segment(p.first_point, p.points()) = p.at_panels.odd_field(1, r);
+    panels.x.segment(p.first_point, p.points()) = p.at_panels.even[0] * x;
+    panels.r.segment(p.first_point, p.points()) = p.at_panels.odd[0] * r;
+    panels.x_zeta.segment(p.first_point, p.points()) = p.at_panels.even[1] * x;
+    panels.r_zeta.segment(p.first_point, p.points()) = p.at_panels.odd[1] * r;
     panels.weights.segment(p.first_point, p.points()) = p.at_panels.weights;
   }
   complete(nodes);

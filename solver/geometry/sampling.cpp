@@ -11,81 +11,80 @@ bool is_symmetric(const Vector &zeta) {
 
 } // namespace
 
-MirroredMatrix::MirroredMatrix(const Matrix &matrix, double sign) : sign_(sign), rows_(matrix.rows()) {
-  const Eigen::Index half_rows = (rows_ + 1) / 2, pairs = matrix.cols() / 2;
-  const auto left = matrix.topLeftCorner(half_rows, pairs);
-  const auto right = matrix.topRightCorner(half_rows, pairs).rowwise().reverse();
-  symmetric_.resize(half_rows, matrix.cols() - pairs); // with the node on the equator, if there is one
+BasisMatrix::BasisMatrix(Matrix whole, double sign) : whole_(std::move(whole)), sign_(sign) {
+  const Eigen::Index half_rows = (whole_.rows() + 1) / 2, pairs = whole_.cols() / 2;
+  const auto left = whole_.topLeftCorner(half_rows, pairs);
+  const auto right = whole_.topRightCorner(half_rows, pairs).rowwise().reverse();
+  symmetric_.resize(half_rows, whole_.cols() - pairs); // with the node on the equator, if there is one
   symmetric_.leftCols(pairs) = left + right;
   if (symmetric_.cols() > pairs)
-    symmetric_.col(pairs) = matrix.col(pairs).head(half_rows);
+    symmetric_.col(pairs) = whole_.col(pairs).head(half_rows);
   antisymmetric_ = left - right;
 }
 
-Vector MirroredMatrix::operator*(const Eigen::Ref<const Vector> &nodal) const {
+Vector BasisMatrix::operator*(const Eigen::Ref<const Vector> &nodal) const {
+  if (!is_mirrored())
+    return whole_ * nodal;
   const Eigen::Index pairs = antisymmetric_.cols();
   Vector symmetric = nodal.head(symmetric_.cols()), antisymmetric = nodal.head(pairs);
   symmetric.head(pairs) = 0.5 * (nodal.head(pairs) + nodal.tail(pairs).reverse());
   antisymmetric -= symmetric.head(pairs);
   const Vector of_symmetric = symmetric_ * symmetric, of_antisymmetric = antisymmetric_ * antisymmetric;
-  Vector values(rows_);
+  Vector values(whole_.rows());
   values.tail(of_symmetric.size()).reverse() = sign_ * (of_symmetric - of_antisymmetric);
   values.head(of_symmetric.size()) = of_symmetric + of_antisymmetric;
   return values;
 }
 
-Vector MirroredMatrix::transposed_times(const Eigen::Ref<const Vector> &values) const {
-  const Eigen::Index pairs = rows_ / 2;
+Vector BasisMatrix::transposed_times(const Eigen::Ref<const Vector> &values) const {
+  if (!is_mirrored())
+    return whole_.transpose() * values;
+  const Eigen::Index pairs = whole_.rows() / 2, pairs_of_nodes = antisymmetric_.cols();
   Vector same = values.head(symmetric_.rows()), opposite = same; // a point on the equator once
   const Vector mirrored = sign_ * values.tail(pairs).reverse();
   same.head(pairs) += mirrored;
   opposite.head(pairs) -= mirrored;
   const Vector symmetric = symmetric_.transpose() * same;
   const Vector antisymmetric = antisymmetric_.transpose() * opposite;
-  Vector nodal(symmetric.size() + antisymmetric.size());
+  Vector nodal(whole_.cols());
   nodal.head(symmetric.size()) = symmetric; // a node on the equator is its own mirror image
-  nodal.head(antisymmetric.size()) = 0.5 * (symmetric.head(antisymmetric.size()) + antisymmetric);
-  nodal.tail(antisymmetric.size()).reverse() = 0.5 * (symmetric.head(antisymmetric.size()) - antisymmetric);
+  nodal.head(pairs_of_nodes) = 0.5 * (symmetric.head(pairs_of_nodes) + antisymmetric);
+  nodal.tail(pairs_of_nodes).reverse() = 0.5 * (symmetric.head(pairs_of_nodes) - antisymmetric);
   return nodal;
 }
 
-Vector Sampling::even_field(int derivative, const Eigen::Ref<const Vector> &nodal) const {
-  if (is_mirrored)
-    return mirrored_even[derivative] * nodal;
-  return even[derivative] * nodal;
-}
-
-Vector Sampling::odd_field(int derivative, const Eigen::Ref<const Vector> &nodal) const {
-  if (is_mirrored)
-    return mirrored_odd[derivative] * nodal;
-  return odd[derivative] * nodal;
-}
-
-Vector Sampling::on_even_nodes(int derivative, const Eigen::Ref<const Vector> &values) const {
-  if (is_mirrored)
-    return mirrored_even[derivative].transposed_times(values);
-  return even[derivative].transpose() * values;
-}
-
-Vector Sampling::on_odd_nodes(int derivative, const Eigen::Ref<const Vector> &values) const {
-  if (is_mirrored)
-    return mirrored_odd[derivative].transposed_times(values);
-  return odd[derivative].transpose() * values;
+Matrix operator*(const Eigen::Ref<const RowMatrix> &at_points, const BasisMatrix &matrix) {
+  if (!matrix.is_mirrored())
+    return at_points * matrix.whole_;
+  const Eigen::Index pairs = matrix.whole_.rows() / 2, pairs_of_nodes = matrix.antisymmetric_.cols();
+  RowMatrix same = at_points.leftCols(matrix.symmetric_.rows()),
+            opposite = same; // a point on the equator once
+  const auto mirrored = matrix.sign_ * at_points.rightCols(pairs).rowwise().reverse();
+  same.leftCols(pairs) += mirrored;
+  opposite.leftCols(pairs) -= mirrored;
+  const Matrix symmetric = same * matrix.symmetric_, antisymmetric = opposite * matrix.antisymmetric_;
+  Matrix on_nodes(at_points.rows(), matrix.whole_.cols());
+  on_nodes.leftCols(symmetric.cols()) = symmetric; // a node on the equator is its own mirror image
+  on_nodes.leftCols(pairs_of_nodes) = 0.5 * (symmetric.leftCols(pairs_of_nodes) + antisymmetric);
+  on_nodes.rightCols(pairs_of_nodes).rowwise().reverse() =
+      0.5 * (symmetric.leftCols(pairs_of_nodes) - antisymmetric);
+  return on_nodes;
 }
 
 Sampling sample(const MeridianBasis &basis, const Vector &zeta, const Vector &weights) {
+  const bool is_mirrored = is_symmetric(zeta) && is_symmetric(basis.nodes);
+  const auto matrix = [&](Matrix whole, int derivative) {
+    if (!is_mirrored)
+      return BasisMatrix(std::move(whole));
+    return BasisMatrix(std::move(whole),
+                       derivative == 1 ? -1 : 1); // the sign of a mirrored field's derivative
+  };
   Sampling at;
   at.zeta = zeta;
   at.weights = weights;
-  at.is_mirrored = is_symmetric(zeta) && is_symmetric(basis.nodes);
   for (int derivative = 0; derivative <= 2; ++derivative) {
-    at.even[derivative] = basis.even(zeta, derivative);
-    at.odd[derivative] = basis.odd(zeta, derivative);
-    if (at.is_mirrored) { // a derivative of a mirrored field has the other sign
-      const double sign = derivative == 1 ? -1 : 1;
-      at.mirrored_even[derivative] = MirroredMatrix(at.even[derivative], sign);
-      at.mirrored_odd[derivative] = MirroredMatrix(at.odd[derivative], sign);
-    }
+    at.even[derivative] = matrix(basis.even(zeta, derivative), derivative);
+    at.odd[derivative] = matrix(basis.odd(zeta, derivative), derivative);
   }
   return at;
 }
@@ -93,22 +92,22 @@ Sampling sample(const MeridianBasis &basis, const Vector &zeta, const Vector &we
 Trace trace(const Sampling &at, const Vector &position) {
   const Eigen::Index n = position.size() / 2;
   Trace curve;
-  curve.x = at.even_field(0, position.head(n));
-  curve.r = at.odd_field(0, position.tail(n));
-  curve.x_zeta = at.even_field(1, position.head(n));
-  curve.r_zeta = at.odd_field(1, position.tail(n));
+  curve.x = at.even[0] * position.head(n);
+  curve.r = at.odd[0] * position.tail(n);
+  curve.x_zeta = at.even[1] * position.head(n);
+  curve.r_zeta = at.odd[1] * position.tail(n);
   curve.arc = (curve.x_zeta.array().square() + curve.r_zeta.array().square()).sqrt();
   return curve;
 }
 
 Matrix area_change(const Sampling &at, const Trace &curve) {
-  const Eigen::Index n = at.even[0].cols();
+  const Eigen::Index n = at.even[0].whole().cols();
   const Vector tangent_x = curve.x_zeta.cwiseQuotient(curve.arc);
   const Vector tangent_r = curve.r_zeta.cwiseQuotient(curve.arc);
   Matrix change(curve.r.size(), 2 * n);
-  change << tangent_x.cwiseQuotient(curve.arc).asDiagonal() * at.even[1],
-      tangent_r.cwiseQuotient(curve.arc).asDiagonal() * at.odd[1];
-  change.rightCols(n) += curve.r.cwiseInverse().asDiagonal() * at.odd[0];
+  change << tangent_x.cwiseQuotient(curve.arc).asDiagonal() * at.even[1].whole(),
+      tangent_r.cwiseQuotient(curve.arc).asDiagonal() * at.odd[1].whole();
+  change.rightCols(n) += curve.r.cwiseInverse().asDiagonal() * at.odd[0].whole();
   return change;
 }
 

@@ -2,41 +2,40 @@
 // A meridian at fixed points: the matrices that take nodal values there, and the curve itself. Nodal positions and
 // displacements are 2N: axial components, then radial ones. Throws what the basis throws (meridian.hpp).
 #include "geometry/meridian.hpp"
+#include <utility>
 
 namespace capsule {
 
-// Products of a matrix that takes nodal values to points, where both lie symmetrically about the equator: what is
-// symmetric and what is antisymmetric there is multiplied by a quarter of the matrix each, which takes half the work. The same as its products but for rounding errors.
-class MirroredMatrix {
+// A matrix that takes nodal values to points. Where both lie symmetrically about the equator, what is symmetric and what is
+// antisymmetric there is multiplied by a quarter of the matrix each, which takes half the work: the same as the products of
+// the whole but for rounding errors.
+class BasisMatrix {
 public:
-  MirroredMatrix() = default;
-  // Such a matrix, points x N, whose values of a mirrored field are the mirrored ones times sign, 1 or -1.
-  MirroredMatrix(const Matrix &matrix, double sign);
+  BasisMatrix() = default;
+  // points x N.
+  explicit BasisMatrix(Matrix whole) : whole_(std::move(whole)) {}
+  // Of nodes and points that lie symmetrically: a mirrored field has the mirrored values times sign, 1 or -1.
+  BasisMatrix(Matrix whole, double sign);
+
+  bool is_mirrored() const { return antisymmetric_.size() > 0; }
+  const Matrix &whole() const { return whole_; }
   Vector operator*(const Eigen::Ref<const Vector> &nodal) const;
   // The transposed matrix times values at the points.
   Vector transposed_times(const Eigen::Ref<const Vector> &values) const;
+  // Rows that act on values at the points, times the matrix: they act on nodal values.
+  friend Matrix operator*(const Eigen::Ref<const RowMatrix> &at_points, const BasisMatrix &matrix);
 
 private:
-  Matrix symmetric_, antisymmetric_;
+  Matrix whole_, symmetric_, antisymmetric_;
   double sign_ = 1;
-  Eigen::Index rows_ = 0;
 };
 
 // Points along the meridian where fields are sampled, and the matrices that take nodal values there.
 struct Sampling {
   Vector zeta;
-  Vector weights; // integral over [0, pi] = sum weights f
-  Matrix even[3]; // value, first and second derivative in zeta; points x N
-  Matrix odd[3];
-  bool is_mirrored = false; // the points, and the nodes
-  MirroredMatrix mirrored_even[3], mirrored_odd[3];
-
-  // even[derivative] * nodal and odd[derivative] * nodal.
-  Vector even_field(int derivative, const Eigen::Ref<const Vector> &nodal) const;
-  Vector odd_field(int derivative, const Eigen::Ref<const Vector> &nodal) const;
-  // even[derivative] and odd[derivative], transposed, times values at the points.
-  Vector on_even_nodes(int derivative, const Eigen::Ref<const Vector> &values) const;
-  Vector on_odd_nodes(int derivative, const Eigen::Ref<const Vector> &values) const;
+  Vector weights;      // integral over [0, pi] = sum weights f
+  BasisMatrix even[3]; // value, first and second derivative in zeta
+  BasisMatrix odd[3];
 };
 Sampling sample(const MeridianBasis &basis, const Vector &zeta, const Vector &weights);
 

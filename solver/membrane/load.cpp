@@ -9,8 +9,8 @@ Vector nodal_area(const Membrane &membrane, const Vector &position) {
     throw std::invalid_argument("nodal loads need a spectral basis");
   const Eigen::Index n = membrane.basis.size();
   // At the nodes x and r are the nodal values: only their derivatives are needed.
-  const Eigen::ArrayXd x_zeta = membrane.at_nodes.even_field(1, position.head(n));
-  const Eigen::ArrayXd r_zeta = membrane.at_nodes.odd_field(1, position.tail(n));
+  const Eigen::ArrayXd x_zeta = membrane.at_nodes.even[1] * position.head(n);
+  const Eigen::ArrayXd r_zeta = membrane.at_nodes.odd[1] * position.tail(n);
   return 2 * std::numbers::pi * membrane.basis.weights.array() * position.tail(n).array() *
          (x_zeta.square() + r_zeta.square()).sqrt();
 }

@@ -17,16 +17,16 @@ using LocalShapes = Eigen::Matrix<double, local_size, Eigen::Dynamic>; // a colu
 
 // The matrix that takes nodal values to a local variable at all points.
 const Matrix &matrix_of(const Sampling &at, int local) {
-  return local <= x2 ? at.even[local + 1] : at.odd[local - r0];
+  return (local <= x2 ? at.even[local + 1] : at.odd[local - r0]).whole();
 }
 
 LocalShapes local_shapes(const Sampling &at, const Vector &position) {
   const Eigen::Index n = position.size() / 2;
   LocalShapes shapes(static_cast<int>(local_size), at.zeta.size());
   for (int i = 0; i <= x2; ++i)
-    shapes.row(i) = at.even_field(i + 1, position.head(n));
+    shapes.row(i) = at.even[i + 1] * position.head(n);
   for (int i = r0; i <= r2; ++i)
-    shapes.row(i) = at.odd_field(i - r0, position.tail(n));
+    shapes.row(i) = at.odd[i - r0] * position.tail(n);
   return shapes;
 }
 
@@ -223,7 +223,7 @@ MembraneState membrane_state(const Membrane &membrane, const Sampling &at,
   const Eigen::Index n = membrane.basis.size(), points = at.zeta.size();
   const LocalShapes shapes = local_shapes(at, position);
   MembraneState state;
-  state.x = at.even_field(0, position.head(n));
+  state.x = at.even[0] * position.head(n);
   state.r = shapes.row(r0);
   for (Vector *field :
        {&state.arc, &state.normal_x, &state.normal_r, &state.stretch_meridional, &state.stretch_azimuthal,
@@ -275,9 +275,9 @@ Vector energy_gradient(const Membrane &membrane, const Vector &position) {
   const Eigen::Index n = membrane.basis.size();
   Vector gradient = Vector::Zero(2 * n);
   for (int i = 0; i <= x2; ++i)
-    gradient.head(n) += membrane.sampling.on_even_nodes(i + 1, local.col(i));
+    gradient.head(n) += membrane.sampling.even[i + 1].transposed_times(local.col(i));
   for (int i = r0; i <= r2; ++i)
-    gradient.tail(n) += membrane.sampling.on_odd_nodes(i - r0, local.col(i));
+    gradient.tail(n) += membrane.sampling.odd[i - r0].transposed_times(local.col(i));
   return gradient;
 }
 

@@ -9,7 +9,7 @@ SurfaceFriction::SurfaceFriction(const Sampling &at, const Vector &nodal_area, c
   const Trace curve = trace(at, position);
   sum_ = area_change(at, curve);
   difference_ = sum_;
-  difference_.rightCols(nodal_area.size()) -= (2 * curve.r.cwiseInverse()).asDiagonal() * at.odd[0];
+  difference_.rightCols(nodal_area.size()) -= (2 * curve.r.cwiseInverse()).asDiagonal() * at.odd[0].whole();
   const Vector area = 2 * std::numbers::pi * at.weights.array() * curve.r.array() * curve.arc.array();
   of_sum_ = viscosity.dilatational * area;
   of_difference_ = viscosity.shear * area;
@@ -40,14 +40,14 @@ Matrix friction_jacobian(const Sampling &at, const Vector &nodal_area, const Vec
   const Trace curve = trace(at, position);
   const Eigen::Index n = nodal_area.size();
   Matrix azimuthal = Matrix::Zero(curve.r.size(), 2 * n); // e_phi of nodal displacements
-  azimuthal.rightCols(n) = curve.r.cwiseInverse().asDiagonal() * at.odd[0];
+  azimuthal.rightCols(n) = curve.r.cwiseInverse().asDiagonal() * at.odd[0].whole();
   const Matrix meridional = area_change(at, curve) - azimuthal; // e_s
   const Vector square = curve.arc.array().square();
   const Vector e_s = meridional * velocity, e_phi = azimuthal * velocity;
 
   Matrix d_meridional(curve.r.size(), 2 * n); // D e_s, D e_phi of the velocity
-  d_meridional << (at.even[1] * velocity.head(n)).cwiseQuotient(square).asDiagonal() * at.even[1],
-      (at.odd[1] * velocity.tail(n)).cwiseQuotient(square).asDiagonal() * at.odd[1];
+  d_meridional << (at.even[1] * velocity.head(n)).cwiseQuotient(square).asDiagonal() * at.even[1].whole(),
+      (at.odd[1] * velocity.tail(n)).cwiseQuotient(square).asDiagonal() * at.odd[1].whole();
   d_meridional -= 2 * e_s.asDiagonal() * meridional;
   const Matrix d_azimuthal = -(e_phi.asDiagonal() * azimuthal);
 
@@ -62,8 +62,8 @@ Matrix friction_jacobian(const Sampling &at, const Vector &nodal_area, const Vec
   Matrix change = meridional.transpose() * area.asDiagonal() * against_meridional +
                   azimuthal.transpose() * area.asDiagonal() * against_azimuthal;
   const Vector tension = area.cwiseProduct(t_s).cwiseQuotient(square);
-  change.topLeftCorner(n, n) += at.even[1].transpose() * tension.asDiagonal() * at.even[1];
-  change.bottomRightCorner(n, n) += at.odd[1].transpose() * tension.asDiagonal() * at.odd[1];
+  change.topLeftCorner(n, n) += at.even[1].whole().transpose() * tension.asDiagonal() * at.even[1].whole();
+  change.bottomRightCorner(n, n) += at.odd[1].whole().transpose() * tension.asDiagonal() * at.odd[1].whole();
   return nodal_area.replicate(2, 1).cwiseInverse().asDiagonal() * change;
 }
 

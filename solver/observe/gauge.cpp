@@ -135,16 +135,16 @@ Gauge::Integrals Gauge::integrals(const Trace &curve) const {
 
 double Gauge::centre(const Vector &position) const {
   const Eigen::Index n = membrane_.basis.size();
-  const Vector x = panels_.even_field(0, position.head(n));
-  const Vector x_zeta = panels_.even_field(1, position.head(n));
-  const Vector r = panels_.odd_field(0, position.tail(n));
+  const Vector x = panels_.even[0] * position.head(n);
+  const Vector x_zeta = panels_.even[1] * position.head(n);
+  const Vector r = panels_.odd[0] * position.tail(n);
   const Eigen::ArrayXd slice = panels_.weights.array() * r.array().square() * x_zeta.array();
   return (slice * x.array()).sum() / slice.sum();
 }
 
 double Gauge::film(const Vector &position) const {
   const Eigen::Index n = membrane_.basis.size();
-  return film(fine_.even_field(0, position.head(n)), fine_.odd_field(0, position.tail(n)));
+  return film(fine_.even[0] * position.head(n), fine_.odd[0] * position.tail(n));
 }
 
 double Gauge::film(const Vector &x, const Vector &r) const {
@@ -195,7 +195,7 @@ double Gauge::film(const Vector &x, const Vector &r) const {
 
 bool Gauge::crosses_itself(const Vector &position) const {
   const Eigen::Index n = membrane_.basis.size();
-  const Vector x = fine_.even_field(0, position.head(n)), r = fine_.odd_field(0, position.tail(n));
+  const Vector x = fine_.even[0] * position.head(n), r = fine_.odd[0] * position.tail(n);
   // Twice the area of the triangle of points a, b, c: its sign tells the side of the line ab on which c lies.
   const auto side = [&](Eigen::Index a, Eigen::Index b, Eigen::Index c) {
     return (x[b] - x[a]) * (r[c] - r[a]) - (r[b] - r[a]) * (x[c] - x[a]);
@@ -305,8 +305,8 @@ Profile Gauge::profile(double time, const Vector &position, const Vector &veloci
   profile.moment_azimuthal = state.moment_azimuthal;
   profile.curvature_meridional = state.curvature_meridional;
   profile.curvature_azimuthal = state.curvature_azimuthal;
-  profile.velocity_x = fine_.even_field(0, velocity.head(n));
-  profile.velocity_r = fine_.odd_field(0, velocity.tail(n));
+  profile.velocity_x = fine_.even[0] * velocity.head(n);
+  profile.velocity_r = fine_.odd[0] * velocity.tail(n);
   return profile;
 }
 

@@ -12,16 +12,17 @@ namespace {
 
 // The matrix in front of v' in (8.3); the identity for equal viscosities without friction in the membrane.
 Matrix velocity_operator(const SteadySystem::Linearisation &linear, double viscosity_ratio) {
-  const Eigen::Index n2 = linear.double_layer.rows();
-  Matrix matrix =
-      (1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2) - (viscosity_ratio - 1) * linear.double_layer;
+  const Eigen::Index n2 = linear.layers.dbl.rows();
+  Matrix matrix = (1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2);
+  if (viscosity_ratio != 1)
+    matrix -= (viscosity_ratio - 1) * linear.layers.double_with_wall();
   if (linear.friction.size() > 0)
-    matrix += linear.single_layer * linear.friction;
+    matrix += linear.layers.single_with_wall() * linear.friction;
   return matrix;
 }
 
 Matrix small_motion(const SteadySystem::Linearisation &linear, double viscosity_ratio) {
-  const Eigen::Index n2 = linear.double_layer.rows();
+  const Eigen::Index n2 = linear.layers.dbl.rows();
   const Matrix on_displacement = linear.jacobian.topLeftCorner(n2, n2);
   return lu_solve(velocity_operator(linear, viscosity_ratio).partialPivLu(), on_displacement);
 }
@@ -38,7 +39,7 @@ struct Border {
 };
 
 Border border_of(const SteadySystem::Linearisation &linear, Neighbours neighbours) {
-  const Eigen::Index n2 = linear.double_layer.rows();
+  const Eigen::Index n2 = linear.layers.dbl.rows();
   const Eigen::Index kept = neighbours == Neighbours::alike ? 2 : 1; // the last ones
   return {linear.jacobian.leftCols(n2).bottomRows(kept), linear.jacobian.topRows(n2).rightCols(kept)};
 }

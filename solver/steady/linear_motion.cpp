@@ -61,10 +61,18 @@ Pointwise dyads(const Frame &frame, const Eigen::ArrayXd &tt, const Eigen::Array
           tt * t_r * t_r + tn * t_r * n_r + nt * n_r * t_r + nn * n_r * n_r};
 }
 
-// Of the displacement's derivative of this order; 2 points x 2N.
-Matrix of_displacement(const Frame &frame, const Pointwise &map, int derivative) {
-  const Matrix &even = frame.at->even[derivative];
-  const Matrix &odd = frame.at->odd[derivative];
+Pointwise operator*(double factor, const Pointwise &map) {
+  return {factor * map.xx, factor * map.xr, factor * map.rx, factor * map.rr};
+}
+
+Pointwise operator-(const Pointwise &one, const Pointwise &other) {
+  return {one.xx - other.xx, one.xr - other.xr, one.rx - other.rx, one.rr - other.rr};
+}
+
+// A map of a displacement's derivative of this order, 2 points x 2N.
+Matrix of_displacement(const Sampling &at, const Pointwise &map, int derivative) {
+  const Matrix &even = at.even[derivative].whole();
+  const Matrix &odd = at.odd[derivative].whole();
   Matrix result(2 * even.rows(), 2 * even.cols());
   result << map.xx.matrix().asDiagonal() * even, map.xr.matrix().asDiagonal() * odd,
       map.rx.matrix().asDiagonal() * even, map.rr.matrix().asDiagonal() * odd;
@@ -82,51 +90,48 @@ Dense times(const Dense &matrix, const Pointwise &map) {
   return result;
 }
 
-// f' of the head comment at points: the change of the load and of the area that it acts on, less the stress
-// of its jump on the strips that the displacement sweeps.
-Matrix carried_load_change(const Frame &frame, const Matrix &nodal_change, const Vector &load) {
-  const Eigen::Index points = frame.curve.r.size();
-  const Eigen::Index n = frame.at->even[0].cols();
-  const Matrix area = area_change(*frame.at, frame.curve);
-  Matrix change(2 * points, 2 * n);
-  change.topRows(points) = frame.at->even[0] * nodal_change.topRows(n);
-  change.bottomRows(points) = frame.at->odd[0] * nodal_change.bottomRows(n);
-  change.topRows(points) += (frame.at->even[0] * load.head(n)).asDiagonal() * area;
-  change.bottomRows(points) += (frame.at->odd[0] * load.tail(n)).asDiagonal() * area;
+// Rows that act on a displacement's derivative of this order at points, as rows that act on its nodal values.
+Matrix on_nodes(const RowMatrix &at_points, const Sampling &at, int derivative) {
+  const Eigen::Index points = at.zeta.size(), n = at.even[0].whole().cols();
+  Matrix result(at_points.rows(), 2 * n);
+  result.leftCols(n) = at_points.leftCols(points) * at.even[derivative];
+  result.rightCols(n) = at_points.rightCols(points) * at.odd[derivative];
+  return result;
+}
 
+// f' of the head comment is the load's change at the nodes, interpolated, and these maps of the displacement and of its
+// derivative in zeta: the load times the change of the area that it acts on, less the stress of its jump on the strips that
+// the displacement sweeps.
+struct CarriedLoad {
+  Pointwise of_displacement, of_slope;
+};
+
+CarriedLoad carried_load(const Frame &frame) {
   const auto r = frame.curve.r.array();
   const auto arc = frame.curve.arc.array();
+  const auto t_x = frame.tangent_x.array(), t_r = frame.tangent_r.array();
   const auto f_t = frame.load_tangent.array();
   const auto f_n = frame.load_normal.array();
+  const Eigen::ArrayXd f_x = f_t * t_x - f_n * t_r, f_r = f_t * t_r + f_n * t_x;
+  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(r.size());
+  const Pointwise area{none, f_x / r, none, f_r / r};
+  const Pointwise area_of_slope{f_x * t_x / arc, f_x * t_r / arc, f_r * t_x / arc, f_r * t_r / arc};
   // r [(f_t d_t - f_n d_n) t + (f_n d_t - f_t d_n) n] over r s', differentiated
-  const Eigen::ArrayXd r_zeta = arc * frame.tangent_r.array();
+  const Eigen::ArrayXd r_zeta = arc * t_r;
   const Eigen::ArrayXd growth_t = (frame.load_tangent_zeta.array() + r_zeta / r * f_t) / arc;
   const Eigen::ArrayXd growth_n = (frame.load_normal_zeta.array() + r_zeta / r * f_n) / arc;
   const Eigen::ArrayXd turning = 2 * frame.turning.array() * f_t / arc;
-  change -=
-      of_displacement(frame, dyads(frame, growth_t, turning - growth_n, turning + growth_n, -growth_t), 0);
-  change -= of_displacement(frame, dyads(frame, f_t / arc, -f_n / arc, f_n / arc, -f_t / arc), 1);
+  const Pointwise strip = dyads(frame, growth_t, turning - growth_n, turning + growth_n, -growth_t);
+  const Pointwise strip_of_slope = dyads(frame, f_t / arc, -f_n / arc, f_n / arc, -f_t / arc);
   // The hoop stress on the strip between the two surfaces.
-  const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(points);
-  const Pointwise hoop{none, none, -f_n * frame.tangent_r.array() / r, f_n * frame.tangent_x.array() / r};
-  change -= of_displacement(frame, hoop, 0);
-  return change;
+  const Pointwise hoop{none, none, -f_n * t_r / r, f_n * t_x / r};
+  return {area - strip - hoop, area_of_slope - strip_of_slope};
 }
 
 // w of the head comment, as a map of the displacement.
 Pointwise slip(const Frame &frame) {
   const Eigen::ArrayXd none = Eigen::ArrayXd::Zero(frame.curve.r.size());
   return dyads(frame, none, frame.load_tangent, none, none);
-}
-
-// D_MM on the slip at the panels.
-Matrix of_panel_slip(const RowMatrix &double_from_panels, const Frame &at_panels) {
-  const RowMatrix on_displacement = times(double_from_panels, slip(at_panels));
-  const Eigen::Index points = at_panels.curve.r.size(), n = at_panels.at->even[0].cols();
-  Matrix result(on_displacement.rows(), 2 * n);
-  result.leftCols(n) = on_displacement.leftCols(points) * at_panels.at->even[0];
-  result.rightCols(n) = on_displacement.rightCols(points) * at_panels.at->odd[0];
-  return result;
 }
 
 // d.grad u of the inner flow, which the shear inside, the velocity along the meridian and the constant
@@ -143,11 +148,11 @@ Matrix advance_of_inner_flow(const Frame &at_nodes, const Vector &shear, const V
   const Eigen::ArrayXd along_n = along_r * t_x - along_x * t_r;
   const Eigen::ArrayXd across_t = shear.array() - along_n;
   const Eigen::ArrayXd across_n = -along_t - velocity.tail(n).array() / at_nodes.curve.r.array();
-  return of_displacement(at_nodes, dyads(at_nodes, along_t, across_t, along_n, across_n), 0);
+  return of_displacement(*at_nodes.at, dyads(at_nodes, along_t, across_t, along_n, across_n), 0);
 }
 
 // t.sigma n inside: the traction that goes with the velocity there, S sigma n/(8 pi) = v/2 - D v; a
-// pressure is free in it.
+// pressure is free in it. The wall has no part in it.
 Vector inner_shear(const NodalLayers &layers, const Frame &at_nodes, const Vector &area,
                    const Vector &velocity) {
   const Eigen::Index n = area.size();
@@ -162,24 +167,28 @@ Vector inner_shear(const NodalLayers &layers, const Frame &at_nodes, const Vecto
 
 } // namespace
 
-LinearMotion linear_motion(const Interaction &interaction, const Membrane &membrane, const Vector &position,
-                           const Vector &velocity, double capillary_number) {
+Matrix linear_motion(const Interaction &interaction, const NodalLayers &layers, const Membrane &membrane,
+                     const Vector &position, const Vector &velocity, double capillary_number) {
+  const Sampling &nodes = membrane.at_nodes, &panels = interaction.mesh().parts[0].at_panels;
   const Vector load = membrane_load(membrane, position) / capillary_number;
-  const Frame at_nodes = frame_at(membrane.at_nodes, position, load);
-  const Frame at_panels = frame_at(interaction.mesh().parts[0].at_panels, position, load);
+  const Frame at_nodes = frame_at(nodes, position, load), at_panels = frame_at(panels, position, load);
   const Matrix nodal_change = load_jacobian(membrane, position, capillary_number);
-  NodalLayers layers = nodal_layers(interaction);
-  const Vector shear = inner_shear(layers, at_nodes, nodal_area(membrane, position), velocity);
+  const RowMatrix &single = interaction.single_from_panels(), &dbl = interaction.double_from_panels();
+  const CarriedLoad carried = carried_load(at_panels);
+  const auto single_times = [&](const Pointwise &map) { return times(single, stokeslet_factor * map); };
+  Matrix motion = layers.single * nodal_change;
+  motion += on_nodes(single_times(carried.of_displacement) - times(dbl, slip(at_panels)), panels, 0);
+  motion += on_nodes(single_times(carried.of_slope), panels, 1);
   // The wall answers to what the nodes have.
-  Matrix to_slip = layers.dbl_answer;
-  to_slip.diagonal().array() -= 0.5;
-  Matrix equal_viscosities = stokeslet_factor * interaction.single_from_panels() *
-                                 carried_load_change(at_panels, nodal_change, load) -
-                             layers.single_answer * carried_load_change(at_nodes, nodal_change, load) -
-                             of_panel_slip(interaction.double_from_panels(), at_panels) +
-                             times(to_slip, slip(at_nodes)) +
-                             advance_of_inner_flow(at_nodes, shear, velocity);
-  return {std::move(equal_viscosities), std::move(layers.single), std::move(layers.dbl)};
+  const CarriedLoad carried_by_nodes = carried_load(at_nodes);
+  const Matrix load_change = nodal_change + of_displacement(nodes, carried_by_nodes.of_displacement, 0) +
+                             of_displacement(nodes, carried_by_nodes.of_slope, 1);
+  Matrix at_wall = layers.single_at_wall * load_change;
+  at_wall -= times(layers.double_at_wall, slip(at_nodes));
+  motion -= layers.answer * at_wall;
+  motion -= of_displacement(nodes, 0.5 * slip(at_nodes), 0);
+  const Vector shear = inner_shear(layers, at_nodes, nodal_area(membrane, position), velocity);
+  return motion + advance_of_inner_flow(at_nodes, shear, velocity);
 }
 
 } // namespace capsule

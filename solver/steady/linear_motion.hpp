@@ -18,14 +18,9 @@
 
 namespace capsule {
 
-struct LinearMotion {
-  Matrix equal_viscosities; // dv/d(position) for lambda = 1, 2N x 2N
-  Matrix single_layer;      // S/(8 pi)
-  Matrix double_layer;      // D
-};
-
-// `interaction` is that of one membrane at this position, with both layers; `velocity` that of the nodes.
-LinearMotion linear_motion(const Interaction &interaction, const Membrane &membrane, const Vector &position,
-                           const Vector &velocity, double capillary_number);
+// dv/d(position) for lambda = 1, 2N x 2N. `interaction` is that of one membrane at this position, with both layers;
+// `velocity` that of the nodes.
+Matrix linear_motion(const Interaction &interaction, const NodalLayers &layers, const Membrane &membrane,
+                     const Vector &position, const Vector &velocity, double capillary_number);
 
 } // namespace capsule

@@ -32,7 +32,7 @@ Matrix slopes(SteadySystem &system, const Vector &unknowns, const SteadySystem::
     if (moves_images)
       result.col(k) = slope;
     else
-      result.col(k) << linear.single_layer * slope.head(n2), slope.tail(2);
+      result.col(k) << linear.layers.velocity_of(slope.head(n2)), slope.tail(2);
   }
   system.set_parameters(here);
   return result;

@@ -163,8 +163,7 @@ Eigen::Matrix<double, 2, Eigen::Dynamic> SteadySystem::constraint_slopes(const V
   Eigen::Matrix<double, 2, Eigen::Dynamic> slopes(2, 2 * n);
   slopes.setZero();
   slopes.row(0).head(n) = centre_weights_;
-  slopes.row(1).head(n) =
-      pi * (membrane_.at_nodes.even[1].transpose() * (weights * r.square()).matrix()).transpose();
+  slopes.row(1).head(n) = pi * membrane_.at_nodes.even[1].transposed_times(weights * r.square()).transpose();
   slopes.row(1).tail(n) = 2 * pi * weights * r * x_zeta.array();
   return slopes;
 }
@@ -217,23 +216,23 @@ SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns, Neig
   Recycled unused;
   const Interaction interaction = flow_->interact(position, Layers::both);
   const Vector velocity = flow_->solve(interaction, load(position), unused).velocity;
-  const auto motion_in = [&](const Interaction &disturbed) {
-    return linear_motion(disturbed, membrane_, position, velocity, input_.flow.capillary_number);
-  };
-  LinearMotion motion = neighbours == Neighbours::alike
-                            ? motion_in(interaction)
-                            : motion_in(flow_->interact(position, Layers::both, images(neighbours)));
   Linearisation result;
   result.residual = equations(unknowns, velocity);
-  result.single_layer = std::move(motion.single_layer);
-  result.double_layer = std::move(motion.double_layer);
+  const auto motion_in = [&](const Interaction &disturbed) {
+    result.layers = nodal_layers(disturbed);
+    return linear_motion(disturbed, result.layers, membrane_, position, velocity,
+                         input_.flow.capillary_number);
+  };
+  const Matrix motion = neighbours == Neighbours::alike
+                            ? motion_in(interaction)
+                            : motion_in(flow_->interact(position, Layers::both, images(neighbours)));
   if (is_viscous(input_.membrane.viscosity))
     result.friction = SurfaceFriction(interaction.mesh().parts[0].at_panels, nodal_area(membrane_, position),
                                       position, input_.membrane.viscosity)
                           .matrix();
   Matrix &jacobian = result.jacobian;
   jacobian = Matrix::Zero(2 * n + 2, 2 * n + 2);
-  jacobian.topLeftCorner(2 * n, 2 * n) = motion.equal_viscosities;
+  jacobian.topLeftCorner(2 * n, 2 * n) = motion;
   jacobian.bottomLeftCorner(2, 2 * n) = constraint_slopes(position);
   Vector unit = unknowns; // equations are linear in V and the slack
   unit[2 * n + 1] = 1;

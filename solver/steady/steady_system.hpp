@@ -53,9 +53,9 @@ public:
   Vector residual(const Vector &unknowns) const;
   struct Linearisation {
     Vector residual;
-    Matrix jacobian;                   // 2N + 2 square
-    Matrix single_layer, double_layer; // of linear_motion.hpp
-    Matrix friction;                   // R of surface_viscosity.hpp, or empty: small motions depend on it
+    Matrix jacobian; // 2N + 2 square
+    NodalLayers layers;
+    Matrix friction; // R of surface_viscosity.hpp, or empty: small motions depend on it
   };
   // With neighbours that move alike this is the derivative of the residual. With opposed ones, of whom every second one
   // makes the same motion and the others its negative, only the matrices of small motions differ.

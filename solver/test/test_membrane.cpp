@@ -94,8 +94,8 @@ BOOST_AUTO_TEST_CASE(inflated_sphere) {
       const Vector pull = 2 * pi * jump * shape.r.array() * shape.arc.array() * at.weights.array();
       const Eigen::Index n = membrane.basis.size();
       Vector work(2 * n);
-      work << at.even[0].transpose() * pull.cwiseProduct(shape.normal_x),
-          at.odd[0].transpose() * pull.cwiseProduct(shape.normal_r);
+      work << at.even[0].transposed_times(pull.cwiseProduct(shape.normal_x)),
+          at.odd[0].transposed_times(pull.cwiseProduct(shape.normal_r));
       Vector difference = energy_gradient(membrane, position) - work;
       if (membrane.basis.spline) { // the poles stay on the axis: what holds them there is no load
         difference(n) = difference(2 * n - 1) = 0;

@@ -180,18 +180,21 @@ BOOST_AUTO_TEST_CASE(mirrored_products_are_the_matrices) {
       const MeridianBasis basis = spectral_basis(nodes);
       const Vector zeta = Vector::LinSpaced(points, 0.01, pi - 0.01);
       const Sampling at = sample(basis, zeta, Vector::Ones(points));
-      BOOST_REQUIRE(at.is_mirrored);
       const Vector nodal =
           (3 * basis.nodes.array()).sin() + basis.nodes.array().exp(); // neither is symmetric
       const Vector values = (2 * zeta.array()).cos() + zeta.array();
+      RowMatrix rows(3, points);
+      rows << values.transpose(), zeta.transpose(), zeta.array().square().matrix().transpose();
       for (int derivative = 0; derivative <= 2; ++derivative) {
-        const auto check = [](const Vector &one, const Vector &other) {
+        const auto check = [](const Matrix &one, const Matrix &other) {
           BOOST_TEST((one - other).norm() < 1e-13 * other.norm());
         };
-        check(at.even_field(derivative, nodal), at.even[derivative] * nodal);
-        check(at.odd_field(derivative, nodal), at.odd[derivative] * nodal);
-        check(at.on_even_nodes(derivative, values), at.even[derivative].transpose() * values);
-        check(at.on_odd_nodes(derivative, values), at.odd[derivative].transpose() * values);
+        for (const BasisMatrix &matrix : {at.even[derivative], at.odd[derivative]}) {
+          BOOST_REQUIRE(matrix.is_mirrored());
+          check(matrix * nodal, matrix.whole() * nodal);
+          check(matrix.transposed_times(values), matrix.whole().transpose() * values);
+          check(rows * matrix, rows * matrix.whole());
+        }
       }
     }
 }
@@ -200,8 +203,8 @@ BOOST_AUTO_TEST_CASE(points_that_do_not_mirror_are_taken_as_they_are) {
   const MeridianBasis basis = spectral_basis(30);
   const Vector zeta = Vector::LinSpaced(20, 0.1, 2);
   const Sampling at = sample(basis, zeta, Vector::Ones(20));
-  BOOST_TEST(!at.is_mirrored);
-  const Vector x = at.even_field(1, tabulate(even_function, basis.nodes, 0));
+  BOOST_TEST(!at.even[1].is_mirrored());
+  const Vector x = at.even[1] * tabulate(even_function, basis.nodes, 0);
   BOOST_TEST((x - tabulate(even_function, zeta, 1)).norm() < 1e-11);
 }
 
