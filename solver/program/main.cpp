@@ -1,7 +1,6 @@
 // The program `capsule`: its options and exit codes. What its commands do: commands.hpp.
 #include "base/build_info.hpp"
 #include "base/failure.hpp"
-#include "base/heap.hpp"
 #include "base/text.hpp"
 #include "program/check_commands.hpp"
 #include "program/commands.hpp"
@@ -200,6 +199,5 @@ ExitCode run_or_fail(int argc, char **argv) {
 } // namespace
 
 int main(int argc, char **argv) {
-  keep_freed_memory();
   return static_cast<int>(run_or_fail(argc, argv));
 }
