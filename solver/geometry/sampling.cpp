@@ -11,15 +11,14 @@ bool is_symmetric(const Vector &zeta) {
 
 } // namespace
 
-BasisMatrix::BasisMatrix(Matrix whole, double sign) : whole_(std::move(whole)), sign_(sign) {
-  const Eigen::Index half_rows = (whole_.rows() + 1) / 2, pairs = whole_.cols() / 2;
-  const auto left = whole_.topLeftCorner(half_rows, pairs);
-  const auto right = whole_.topRightCorner(half_rows, pairs).rowwise().reverse();
-  symmetric_.resize(half_rows, whole_.cols() - pairs); // with the node on the equator, if there is one
-  symmetric_.leftCols(pairs) = left + right;
-  if (symmetric_.cols() > pairs)
-    symmetric_.col(pairs) = whole_.col(pairs).head(half_rows);
-  antisymmetric_ = left - right;
+BasisMatrix::BasisMatrix(const Matrix &half, Eigen::Index points, double sign)
+    : whole_(points, half.cols()), symmetric_(half.leftCols((half.cols() + 1) / 2)), sign_(sign) {
+  whole_.bottomRows(half.rows()) = sign * half.reverse();
+  whole_.topRows(half.rows()) = half;
+  const Eigen::Index pairs = half.cols() / 2; // a node on the equator is no pair
+  const auto right = half.rightCols(pairs).rowwise().reverse();
+  antisymmetric_ = half.leftCols(pairs) - right;
+  symmetric_.leftCols(pairs) += right;
 }
 
 Vector BasisMatrix::operator*(const Eigen::Ref<const Vector> &nodal) const {
@@ -73,18 +72,19 @@ Matrix operator*(const Eigen::Ref<const RowMatrix> &at_points, const BasisMatrix
 
 Sampling sample(const MeridianBasis &basis, const Vector &zeta, const Vector &weights) {
   const bool is_mirrored = is_symmetric(zeta) && is_symmetric(basis.nodes);
-  const auto matrix = [&](Matrix whole, int derivative) {
+  const Eigen::Index points = zeta.size();
+  const Vector computed = zeta.head(is_mirrored ? (points + 1) / 2 : points);
+  const auto matrix = [&](Matrix rows, int derivative) {
     if (!is_mirrored)
-      return BasisMatrix(std::move(whole));
-    return BasisMatrix(std::move(whole),
-                       derivative == 1 ? -1 : 1); // the sign of a mirrored field's derivative
+      return BasisMatrix(std::move(rows));
+    return BasisMatrix(rows, points, derivative == 1 ? -1 : 1); // the sign of a mirrored field's derivative
   };
   Sampling at;
   at.zeta = zeta;
   at.weights = weights;
   for (int derivative = 0; derivative <= 2; ++derivative) {
-    at.even[derivative] = matrix(basis.even(zeta, derivative), derivative);
-    at.odd[derivative] = matrix(basis.odd(zeta, derivative), derivative);
+    at.even[derivative] = matrix(basis.even(computed, derivative), derivative);
+    at.odd[derivative] = matrix(basis.odd(computed, derivative), derivative);
   }
   return at;
 }

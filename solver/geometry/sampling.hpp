@@ -14,8 +14,9 @@ public:
   BasisMatrix() = default;
   // points x N.
   explicit BasisMatrix(Matrix whole) : whole_(std::move(whole)) {}
-  // Of nodes and points that lie symmetrically: a mirrored field has the mirrored values times sign, 1 or -1.
-  BasisMatrix(Matrix whole, double sign);
+  // Of nodes and points that lie symmetrically, from the rows of the first half of the points, with that on the equator: a
+  // mirrored field has the mirrored values times sign, 1 or -1.
+  BasisMatrix(const Matrix &half, Eigen::Index points, double sign);
 
   bool is_mirrored() const { return antisymmetric_.size() > 0; }
   const Matrix &whole() const { return whole_; }

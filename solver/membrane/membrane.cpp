@@ -16,8 +16,8 @@ using LocalMatrix = Eigen::Matrix<double, local_size, local_size>;
 using LocalShapes = Eigen::Matrix<double, local_size, Eigen::Dynamic>; // a column per point
 
 // The matrix that takes nodal values to a local variable at all points.
-const Matrix &matrix_of(const Sampling &at, int local) {
-  return (local <= x2 ? at.even[local + 1] : at.odd[local - r0]).whole();
+const BasisMatrix &matrix_of(const Sampling &at, int local) {
+  return local <= x2 ? at.even[local + 1] : at.odd[local - r0];
 }
 
 LocalShapes local_shapes(const Sampling &at, const Vector &position) {
@@ -286,29 +286,30 @@ Matrix energy_hessian(const Membrane &membrane, const Vector &position) {
   const Matrix local = local_hessians(membrane, position);
   const Eigen::Index n = membrane.basis.size();
   Matrix hessian(2 * n, 2 * n);
-  // Each block is a sum of (matrix of a variable)^T times (its local row applied to the matrices of the
-  // others). It is summed on its own: columns of the Hessian may lie a power of two apart and would then share
-  // places in the cache.
-  Matrix row_applied(at.zeta.size(), n), sum(n, n);
+  // Each block is a sum of (local row of a variable, applied to the matrices of the others)^T times its own matrix. It is
+  // summed on its own: columns of the Hessian may lie a power of two apart and would then share places in the cache.
+  RowMatrix row_applied(n, at.zeta.size());
+  Matrix sum(n, n);
   const auto block = [&](Local first_row, Local end_row, Local first_column,
                          Local end_column) -> const Matrix & {
     sum.setZero();
     for (int row = first_row; row < end_row; ++row) {
-      for (Eigen::Index j = 0; j < n; ++j) { // column by column: the sum stays in the nearest cache
-        row_applied.col(j).setZero();
+      for (Eigen::Index j = 0; j < n; ++j) { // node by node: the sum stays in the nearest cache
+        row_applied.row(j).setZero();
         for (int column = first_column; column < end_column; ++column) {
-          row_applied.col(j) +=
-              local.col(row * local_size + column).cwiseProduct(matrix_of(at, column).col(j));
+          row_applied.row(j) += local.col(row * local_size + column)
+                                    .cwiseProduct(matrix_of(at, column).whole().col(j))
+                                    .transpose();
         }
       }
-      sum.noalias() += matrix_of(at, row).transpose() * row_applied;
+      sum += row_applied * matrix_of(at, row);
     }
     return sum;
   };
   hessian.topLeftCorner(n, n) = block(x1, r0, x1, r0);
-  hessian.topRightCorner(n, n) = block(x1, r0, r0, local_size);
+  hessian.bottomLeftCorner(n, n) = block(x1, r0, r0, local_size);
   hessian.bottomRightCorner(n, n) = block(r0, local_size, r0, local_size);
-  hessian.bottomLeftCorner(n, n) = hessian.topRightCorner(n, n).transpose();
+  hessian.topRightCorner(n, n) = hessian.bottomLeftCorner(n, n).transpose();
   return hessian;
 }
 

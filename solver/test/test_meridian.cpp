@@ -189,6 +189,8 @@ BOOST_AUTO_TEST_CASE(mirrored_products_are_the_matrices) {
         const auto check = [](const Matrix &one, const Matrix &other) {
           BOOST_TEST((one - other).norm() < 1e-13 * other.norm());
         };
+        check(at.even[derivative].whole(), basis.even(zeta, derivative));
+        check(at.odd[derivative].whole(), basis.odd(zeta, derivative));
         for (const BasisMatrix &matrix : {at.even[derivative], at.odd[derivative]}) {
           BOOST_REQUIRE(matrix.is_mirrored());
           check(matrix * nodal, matrix.whole() * nodal);
