@@ -14,7 +14,7 @@ constexpr int most_steps = 60;
 
 SteadyPoint point_at(const SteadyState &state, const Case &physics, double value) {
   state.system->set_parameters(physics);
-  const SteadyRecord record = record_steady(state, physics.flow.viscosity_ratio);
+  const SteadyRecord record = record_steady(state);
   return {value, record.row, record.further.at("growth_rate"),
           std::abs(state.unknowns[state.unknowns.size() - 1])};
 }

@@ -32,9 +32,8 @@ Matrix double_with_wall(const Interaction &interaction, const Answer &answer_of_
 } // namespace
 
 NodalLayers nodal_layers(const Interaction &interaction) {
-  return {stokeslet_factor * interaction.single_layer(), interaction.double_layer(),
-          interaction.answer_of_wall(), stokeslet_factor * interaction.single_at_wall(),
-          interaction.double_at_wall()};
+  return {stokeslet_factor * interaction.single_layer(), interaction.answer_of_wall(),
+          stokeslet_factor * interaction.single_at_wall(), interaction.double_at_wall()};
 }
 
 Vector NodalLayers::velocity_of(const Vector &load) const {
@@ -48,8 +47,8 @@ Matrix NodalLayers::single_with_wall() const {
   return single - answer * single_at_wall;
 }
 
-Matrix NodalLayers::double_with_wall() const {
-  return dbl - answer * double_at_wall;
+Matrix NodalLayers::double_with_wall(const Matrix &double_layer) const {
+  return double_layer - answer * double_at_wall;
 }
 
 Flow::Flow(Wall wall, MembraneMesh mesh, const FlowParameters &parameters, double solver_tolerance)

@@ -33,16 +33,17 @@ struct FlowParameters {
   std::vector<Image> images = {};
 };
 
-// Both layers on nodal densities, 2N x 2N, and what the wall answers to them. Products with a few densities are cheaper than
-// the matrices with the wall.
+// The single layer on nodal densities, 2N x 2N, and what the wall answers to both layers. Products with a few densities are
+// cheaper than the matrices with the wall.
 struct NodalLayers {
-  Matrix single, dbl;                    // S_MM/(8 pi), D_MM
+  Matrix single;                         // S_MM/(8 pi)
   RowMatrix answer;                      // C A^(-1)
   Matrix single_at_wall, double_at_wall; // S_BM/(8 pi), D_BM
 
   Vector velocity_of(const Vector &load) const; // (S_MM - C A^(-1) S_BM) load/(8 pi)
   Matrix single_with_wall() const;              // (S_MM - C A^(-1) S_BM)/(8 pi)
-  Matrix double_with_wall() const;              // D_MM - C A^(-1) D_BM
+  // D_MM - C A^(-1) D_BM, from D_MM.
+  Matrix double_with_wall(const Matrix &double_layer) const;
 };
 NodalLayers nodal_layers(const Interaction &interaction);
 

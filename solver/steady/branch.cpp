@@ -35,14 +35,13 @@ constexpr double farthest_stretch = 10; // to which a branch without folds is fo
 // What is recorded of a branch's points as they are found.
 class Record {
 public:
-  Record(const KeyPath &path, double viscosity_ratio, const Control &control)
-      : path_(path), viscosity_ratio_(viscosity_ratio), control_(control) {}
+  Record(const KeyPath &path, const Control &control) : path_(path), control_(control) {}
 
   // The state's system has the parameters of this part of the path.
   BranchRow add(const SteadyState &state, const SteadySystem::Linearisation &linear, double part,
                 bool profile) {
     throw_if_interrupted(control_);
-    SteadyRecord record = record_steady(state, linear, gauge_of_state(state), viscosity_ratio_);
+    SteadyRecord record = record_steady(state, linear, gauge_of_state(state));
     record.row.time = path_.value(part); // a branch has no time: the key's value takes its place
     record.profile.time = record.row.time;
     BranchRow point{path_.value(part), record.row, record.further.at("growth_rate")};
@@ -78,7 +77,6 @@ private:
   }
 
   KeyPath path_;
-  double viscosity_ratio_;
   std::optional<Gauge> gauge_;
   std::shared_ptr<const SteadySystem> measured_; // by gauge_
   double end_of_pore_ = 0;
@@ -90,8 +88,7 @@ private:
 class BranchFollower {
 public:
   BranchFollower(const Case &input, const KeyPath &path, const Control &control)
-      : path_(path), viscosity_ratio_(input.flow.viscosity_ratio), record_(path, viscosity_ratio_, control),
-        may_refine_(input.mesh.membrane == 0) {}
+      : path_(path), record_(path, control), may_refine_(input.mesh.membrane == 0) {}
 
   void begin(const RefinedState &start) {
     outcome().error_estimate = start.error_estimate;
@@ -159,7 +156,7 @@ public:
                 [&](const SteadyState &state, const FoldPoint &point) {
                   throw_if_interrupted(control);
                   place_ = second.text(point.second_part);
-                  const SteadyRecord record = record_steady(state, viscosity_ratio_);
+                  const SteadyRecord record = record_steady(state);
                   outcome().fold_curve.push_back(
                       {second.value(point.second_part),
                        {path_.value(point.part), record.row, record.further.at("growth_rate")}});
@@ -210,7 +207,6 @@ private:
   }
 
   KeyPath path_;
-  double viscosity_ratio_;
   Record record_;
   bool may_refine_;
   SteadyState state_;

@@ -11,20 +11,21 @@ namespace capsule {
 namespace {
 
 // The matrix in front of v' in (8.3); the identity for equal viscosities without friction in the membrane.
-Matrix velocity_operator(const SteadySystem::Linearisation &linear, double viscosity_ratio) {
-  const Eigen::Index n2 = linear.layers.dbl.rows();
+Matrix velocity_operator(const SteadySystem &system, const SteadySystem::Linearisation &linear) {
+  const double viscosity_ratio = system.input().flow.viscosity_ratio;
+  const Eigen::Index n2 = 2 * system.nodes();
   Matrix matrix = (1 + viscosity_ratio) / 2 * Matrix::Identity(n2, n2);
   if (viscosity_ratio != 1)
-    matrix -= (viscosity_ratio - 1) * linear.layers.double_with_wall();
+    matrix -= (viscosity_ratio - 1) * linear.layers.double_with_wall(linear.double_layer);
   if (linear.friction.size() > 0)
     matrix += linear.layers.single_with_wall() * linear.friction;
   return matrix;
 }
 
-Matrix small_motion(const SteadySystem::Linearisation &linear, double viscosity_ratio) {
-  const Eigen::Index n2 = linear.layers.dbl.rows();
+Matrix small_motion(const SteadySystem &system, const SteadySystem::Linearisation &linear) {
+  const Eigen::Index n2 = 2 * system.nodes();
   const Matrix on_displacement = linear.jacobian.topLeftCorner(n2, n2);
-  return lu_solve(velocity_operator(linear, viscosity_ratio).partialPivLu(), on_displacement);
+  return lu_solve(velocity_operator(system, linear).partialPivLu(), on_displacement);
 }
 
 bool grows_more(const std::complex<double> &a, const std::complex<double> &b) {
@@ -39,15 +40,15 @@ struct Border {
 };
 
 Border border_of(const SteadySystem::Linearisation &linear, Neighbours neighbours) {
-  const Eigen::Index n2 = linear.layers.dbl.rows();
+  const Eigen::Index n2 = linear.layers.single.rows();
   const Eigen::Index kept = neighbours == Neighbours::alike ? 2 : 1; // the last ones
   return {linear.jacobian.leftCols(n2).bottomRows(kept), linear.jacobian.topRows(n2).rightCols(kept)};
 }
 
-Eigen::VectorXcd all_growth_rates(const SteadySystem::Linearisation &linear, const Border &border,
-                                  double viscosity_ratio) {
+Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const SteadySystem::Linearisation &linear,
+                                  const Border &border) {
   const auto &[constraints, velocities] = border;
-  Matrix motion = small_motion(linear, viscosity_ratio);
+  Matrix motion = small_motion(system, linear);
   motion -= velocities * lu_solve((constraints * velocities).partialPivLu(), Matrix(constraints * motion));
   const Matrix allowed = orthogonal_to_rows(constraints);
   Eigen::VectorXcd rates = eigenvalues(allowed.transpose() * motion * allowed);
@@ -61,11 +62,11 @@ Eigen::VectorXcd all_growth_rates(const SteadySystem::Linearisation &linear, con
 // viscosity ratio. A growing motion is alone on its side of the inverse's spectrum and shows early, but it need not
 // be the one that grows fastest: then all rates are computed.
 Eigen::VectorXcd rates_by_arnoldi(const SteadySystem &system, const SteadySystem::Linearisation &linear,
-                                  double viscosity_ratio, Neighbours neighbours, std::size_t wanted) {
+                                  Neighbours neighbours, std::size_t wanted) {
   constexpr std::array vectors{40, 80}; // as many as the second where the first show too few rates
   constexpr double converged = 1e-8, visible = 0.1; // relative residuals of an eigenvalue
   const Eigen::Index n2 = 2 * system.nodes();
-  const Matrix on_velocity = velocity_operator(linear, viscosity_ratio);
+  const Matrix on_velocity = velocity_operator(system, linear);
   const Border border = border_of(linear, neighbours);
   const Eigen::Index size_of_all = n2 + border.constraints.rows();
   Matrix bordered = Matrix::Zero(size_of_all, size_of_all);
@@ -115,7 +116,7 @@ Eigen::VectorXcd rates_by_arnoldi(const SteadySystem &system, const SteadySystem
       const std::complex<double> value = eigen.values[k];
       const double residual = hessenberg(size, size - 1) * std::abs(eigen.vectors(size - 1, k));
       if (value.real() > 0 && residual < visible * std::abs(value))
-        return all_growth_rates(linear, border, viscosity_ratio);
+        return all_growth_rates(system, linear, border);
       if (residual < converged * std::abs(value))
         rates.push_back(1.0 / value);
     }
@@ -129,28 +130,24 @@ Eigen::VectorXcd rates_by_arnoldi(const SteadySystem &system, const SteadySystem
 
 } // namespace
 
-Matrix small_motion(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
-                    Neighbours neighbours) {
-  return small_motion(system.linearise(unknowns, neighbours), viscosity_ratio);
+Matrix small_motion(const SteadySystem &system, const Vector &unknowns, Neighbours neighbours) {
+  return small_motion(system, system.linearise(unknowns, neighbours));
 }
 
-Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
-                                  Neighbours neighbours) {
+Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unknowns, Neighbours neighbours) {
   const SteadySystem::Linearisation linear = system.linearise(unknowns, neighbours);
-  return all_growth_rates(linear, border_of(linear, neighbours), viscosity_ratio);
+  return all_growth_rates(system, linear, border_of(linear, neighbours));
 }
 
-Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
-                              Neighbours neighbours) {
+Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, Neighbours neighbours) {
   constexpr std::size_t all_that_converge = std::numeric_limits<std::size_t>::max();
-  return rates_by_arnoldi(system, system.linearise(unknowns, neighbours), viscosity_ratio, neighbours,
-                          all_that_converge);
+  return rates_by_arnoldi(system, system.linearise(unknowns, neighbours), neighbours, all_that_converge);
 }
 
 std::complex<double> slowest_rate(const SteadySystem &system, const SteadySystem::Linearisation &linear,
-                                  double viscosity_ratio, Neighbours neighbours) {
+                                  Neighbours neighbours) {
   constexpr std::size_t enough = 10;
-  return rates_by_arnoldi(system, linear, viscosity_ratio, neighbours, enough)[0];
+  return rates_by_arnoldi(system, linear, neighbours, enough)[0];
 }
 
 } // namespace capsule

@@ -9,20 +9,20 @@
 
 namespace capsule {
 
-// M, 2N x 2N, for any viscosity ratio and the membrane's own viscosity.
-Matrix small_motion(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
+// M, 2N x 2N, with the viscosity ratio of the system's case and the membrane's own viscosity.
+Matrix small_motion(const SteadySystem &system, const Vector &unknowns,
                     Neighbours neighbours = Neighbours::alike);
 
 // All 2N - 2 rates; 2N - 1 with opposed neighbours.
-Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
+Eigen::VectorXcd all_growth_rates(const SteadySystem &system, const Vector &unknowns,
                                   Neighbours neighbours = Neighbours::alike);
 
 // All of them if one grows; otherwise only those of smallest modulus (30 or more), to 1e-8 relative. Throws
 // NumericsFailure("unresolved") if none converges.
-Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns, double viscosity_ratio,
+Eigen::VectorXcd growth_rates(const SteadySystem &system, const Vector &unknowns,
                               Neighbours neighbours = Neighbours::alike);
 // The first of them alone, from the linearisation at the state, in less time.
 std::complex<double> slowest_rate(const SteadySystem &system, const SteadySystem::Linearisation &linear,
-                                  double viscosity_ratio, Neighbours neighbours = Neighbours::alike);
+                                  Neighbours neighbours = Neighbours::alike);
 
 } // namespace capsule

@@ -153,14 +153,14 @@ Matrix advance_of_inner_flow(const Frame &at_nodes, const Vector &shear, const V
 
 // t.sigma n inside: the traction that goes with the velocity there, S sigma n/(8 pi) = v/2 - D v; a
 // pressure is free in it. The wall has no part in it.
-Vector inner_shear(const NodalLayers &layers, const Frame &at_nodes, const Vector &area,
+Vector inner_shear(const Interaction &interaction, Matrix single, const Frame &at_nodes, const Vector &area,
                    const Vector &velocity) {
   const Eigen::Index n = area.size();
   Vector normal(2 * n);
   normal << -at_nodes.tangent_r, at_nodes.tangent_x;
-  Matrix single = layers.single;
   single += normal * normal.cwiseProduct(area.replicate(2, 1)).transpose();
-  const Vector traction = lu_solve(single.partialPivLu(), Vector(0.5 * velocity - layers.dbl * velocity));
+  const Vector traction =
+      lu_solve(single.partialPivLu(), Vector(0.5 * velocity - interaction.double_layer(velocity)));
   return traction.head(n).cwiseProduct(at_nodes.tangent_x) +
          traction.tail(n).cwiseProduct(at_nodes.tangent_r);
 }
@@ -187,7 +187,8 @@ Matrix linear_motion(const Interaction &interaction, const NodalLayers &layers, 
   at_wall -= times(layers.double_at_wall, slip(at_nodes));
   motion -= layers.answer * at_wall;
   motion -= of_displacement(nodes, 0.5 * slip(at_nodes), 0);
-  const Vector shear = inner_shear(layers, at_nodes, nodal_area(membrane, position), velocity);
+  const Vector shear =
+      inner_shear(interaction, layers.single, at_nodes, nodal_area(membrane, position), velocity);
   return motion + advance_of_inner_flow(at_nodes, shear, velocity);
 }
 

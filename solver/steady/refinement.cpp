@@ -152,9 +152,8 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
   }
 }
 
-SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio) {
-  return record_steady(state, state.system->linearise(state.unknowns), gauge_of(*state.system),
-                       viscosity_ratio);
+SteadyRecord record_steady(const SteadyState &state) {
+  return record_steady(state, state.system->linearise(state.unknowns), gauge_of(*state.system));
 }
 
 Gauge gauge_of(const SteadySystem &system) {
@@ -163,10 +162,10 @@ Gauge gauge_of(const SteadySystem &system) {
 }
 
 SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Linearisation &linear,
-                           const Gauge &gauge, double viscosity_ratio) {
+                           const Gauge &gauge) {
   const SteadySystem &system = *state.system;
   SteadyRecord record = measure(state, gauge);
-  const std::complex<double> slowest = slowest_rate(system, linear, viscosity_ratio);
+  const std::complex<double> slowest = slowest_rate(system, linear);
   record.further = {{"growth_rate", slowest.real()}, {"oscillation_rate", std::abs(slowest.imag())}};
   if (system.input().flow.type == FlowType::pore)
     record.further["growth_per_length"] = slowest.real() / record.row.v_g;
@@ -175,18 +174,16 @@ SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Lineari
     constexpr double poiseuille = 8; // pressure drop of a tube per radius
     record.further["apparent_viscosity"] = 1 + record.row.pressure_drop / (poiseuille * period);
     record.further["pairing_growth_rate"] =
-        slowest_rate(system, system.linearise(state.unknowns, Neighbours::opposed), viscosity_ratio,
-                     Neighbours::opposed)
+        slowest_rate(system, system.linearise(state.unknowns, Neighbours::opposed), Neighbours::opposed)
             .real();
   }
   return record;
 }
 
-std::map<std::string, double> errors_of_further(const RefinedState &refined, const SteadyRecord &record,
-                                                double viscosity_ratio) {
+std::map<std::string, double> errors_of_further(const RefinedState &refined, const SteadyRecord &record) {
   std::map<std::string, double> errors;
   for (const SteadyState &coarse : refined.coarser)
-    for (const auto &[quantity, value] : record_steady(coarse, viscosity_ratio).further)
+    for (const auto &[quantity, value] : record_steady(coarse).further)
       errors[quantity] += std::abs(record.further.at(quantity) - value);
   for (auto &[quantity, error] : errors)
     error = error_safety * (error + relative_error_of_quadrature(record.row));

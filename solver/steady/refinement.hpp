@@ -28,10 +28,10 @@ struct SteadyRecord {
   // growth_rate, oscillation_rate, growth_per_length; of a train apparent_viscosity and pairing_growth_rate, too
   std::map<std::string, double> further;
 };
-SteadyRecord record_steady(const SteadyState &state, double viscosity_ratio);
+SteadyRecord record_steady(const SteadyState &state);
 // The same where the linearisation at the state is known, and a gauge of the state's membrane and pore.
 SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Linearisation &linear,
-                           const Gauge &gauge, double viscosity_ratio);
+                           const Gauge &gauge);
 Gauge gauge_of(const SteadySystem &system);
 
 // Errors of the finest of several meshes: its differences from coarser ones, and the quadrature's error, which all may
@@ -53,7 +53,6 @@ inline constexpr CoarserMesh first_mesh{.nodes = 0.75},
     second_mesh{.nodes = 0.875, .longer = coarser_walls[1].longer};
 
 // Of `further` of a train, as of all else: the differences from coarser meshes and the error of the quadrature.
-std::map<std::string, double> errors_of_further(const RefinedState &refined, const SteadyRecord &record,
-                                                double viscosity_ratio);
+std::map<std::string, double> errors_of_further(const RefinedState &refined, const SteadyRecord &record);
 
 } // namespace capsule

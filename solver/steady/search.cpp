@@ -259,9 +259,7 @@ SteadyState searched(const Case &input, const Control &control, const MarchToRes
 
 bool is_unstable(const SteadyState &state) {
   constexpr double neutral = 1e-6;
-  const double viscosity_ratio = state.system->input().flow.viscosity_ratio;
-  return slowest_rate(*state.system, state.system->linearise(state.unknowns), viscosity_ratio).real() >
-         neutral;
+  return slowest_rate(*state.system, state.system->linearise(state.unknowns)).real() > neutral;
 }
 
 // The state that the motion reaches, where it is a stable one.

@@ -18,7 +18,7 @@ Outcome steady(const Case &input, const std::optional<Profile> &from, const Cont
   Outcome outcome;
   try {
     const RefinedState refined = refine(input, find_steady(input, from, control, march), control);
-    const SteadyRecord record = record_steady(refined.state, input.flow.viscosity_ratio);
+    const SteadyRecord record = record_steady(refined.state);
     outcome.status = Status::steady;
     const bool stable = record.further.at("growth_rate") <= 0;
     for (const std::string &remark : {from ? other_capsule(input, *from) : "", refined.warning,
@@ -26,7 +26,7 @@ Outcome steady(const Case &input, const std::optional<Profile> &from, const Cont
       if (!remark.empty())
         outcome.message += (outcome.message.empty() ? "" : "; ") + remark;
     outcome.error_estimate = refined.error_estimate;
-    outcome.error_estimate.merge(errors_of_further(refined, record, input.flow.viscosity_ratio));
+    outcome.error_estimate.merge(errors_of_further(refined, record));
     outcome.further = record.further;
     if (const auto empty = empty_resistance(input))
       outcome.further["empty_resistance"] = *empty;

@@ -220,6 +220,8 @@ SteadySystem::Linearisation SteadySystem::linearise(const Vector &unknowns, Neig
   result.residual = equations(unknowns, velocity);
   const auto motion_in = [&](const Interaction &disturbed) {
     result.layers = nodal_layers(disturbed);
+    if (input_.flow.viscosity_ratio != 1)
+      result.double_layer = disturbed.double_layer();
     return linear_motion(disturbed, result.layers, membrane_, position, velocity,
                          input_.flow.capillary_number);
   };

@@ -55,7 +55,8 @@ public:
     Vector residual;
     Matrix jacobian; // 2N + 2 square
     NodalLayers layers;
-    Matrix friction; // R of surface_viscosity.hpp, or empty: small motions depend on it
+    // Small motions depend on them: D_MM, or empty for equal viscosities; R of surface_viscosity.hpp, or empty.
+    Matrix double_layer, friction;
   };
   // With neighbours that move alike this is the derivative of the residual. With opposed ones, of whom every second one
   // makes the same motion and the others its negative, only the matrices of small motions differ.

@@ -92,9 +92,10 @@ Eigen::ArrayXd computed_rates(const MembraneLaw &law, const Sphere &sphere, doub
   physics.membrane.bending_ratio = sphere.bending;
   physics.membrane.viscosity = sphere.viscosity;
   physics.flow.capillary_number = 1;
+  physics.flow.viscosity_ratio = sphere.viscosity_ratio;
   physics.accuracy = 1e-7;
   const auto system = system_on_mesh(physics, spectral_basis(nodes).nodes);
-  return -all_growth_rates(*system, system->initial(), sphere.viscosity_ratio).real().array();
+  return -all_growth_rates(*system, system->initial()).real().array();
 }
 
 double nearest(const Eigen::ArrayXd &rates, double rate) {

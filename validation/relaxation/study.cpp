@@ -80,10 +80,9 @@ Published published(const Row &row, const std::string &which) {
 // The small motions about a steady state, each by itself.
 class SmallMotions {
 public:
-  SmallMotions(const SteadyState &state, double viscosity_ratio)
+  explicit SmallMotions(const SteadyState &state)
       : state_(state), gauge_(state.system->pore(), state.system->membrane()),
-        eigen_(small_motion(*state.system, state.unknowns, viscosity_ratio)),
-        inverse_(eigen_.eigenvectors().inverse()) {}
+        eigen_(small_motion(*state.system, state.unknowns)), inverse_(eigen_.eigenvectors().inverse()) {}
 
   double speed() const { return state_.unknowns[2L * nodes]; }
   // After a time, from the nodes' velocity before, by all motions or by the slowest alone. Two motions that are none do
@@ -146,8 +145,8 @@ std::string row_text(const Row &row) {
   using enum SmallMotions::Which;
   const Case physics = case_of(row);
   const SteadyState state = on_nodes_of_march(physics);
-  const double rate = growth_rates(*state.system, state.unknowns, row.viscosity_ratio)[0].real();
-  const SmallMotions motions(state, row.viscosity_ratio);
+  const double rate = growth_rates(*state.system, state.unknowns)[0].real();
+  const SmallMotions motions(state);
 
   const Checkpoint before = reach(physics, long_tube, from_x_g, {});
   Case tube = physics;
@@ -185,12 +184,14 @@ std::string row_text(const Row &row) {
 }
 
 std::string rates_text() {
-  const Case physics = case_of(rows[1]);
+  Case physics = case_of(rows[1]);
   const SteadyState state = on_nodes_of_march(physics);
   std::string text;
   for (int k = 0; k <= 16; ++k) {
     const double viscosity_ratio = std::pow(10, -2 + 0.25 * k);
-    const double rate = growth_rates(*state.system, state.unknowns, viscosity_ratio)[0].real();
+    physics.flow.viscosity_ratio = viscosity_ratio;
+    state.system->set_parameters(physics);
+    const double rate = growth_rates(*state.system, state.unknowns)[0].real();
     text += fmt::format("{:.6g},{:.6f},{:.6f}\n", viscosity_ratio, rate, -state.unknowns[2L * nodes] / rate);
   }
   return text;

@@ -133,7 +133,7 @@ using Runs = std::map<std::string, StudyRun>;
 
 bool as_in_a_train(const std::string &directory, const Runs &runs) {
   const Case physics = train_of(of_five, spacing_of_five, 1e-5);
-  const SteadyRecord train = record_steady(refine(physics, find_steady(physics, {}, {}), {}).state, 1);
+  const SteadyRecord train = record_steady(refine(physics, find_steady(physics, {}, {}), {}).state);
   const auto middle = [&](const char *quantity) { return runs.at(five).summary.quantities.at(quantity); };
   const double off_speed = std::abs(middle("v_g#3") / train.row.v_g - 1);
   const double off_drop = std::abs(middle("pressure_share#3") / train.row.pressure_drop - 1);

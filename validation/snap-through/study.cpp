@@ -94,7 +94,7 @@ std::string fold_rows(const Family &family, const Direction &direction) {
   const KeyPath flow(flow_key, physics, strong), second(key, physics, to);
   std::string rows;
   const auto add = [&](const SteadyState &state, const FoldPoint &point) {
-    const SteadyRecord record = record_steady(state, 1);
+    const SteadyRecord record = record_steady(state);
     rows += fmt::format("{},{},{},{},{:.10g},{:.10g},{:.8g},{}\n", family.name, number, key, to,
                         second.value(point.second_part), flow.value(point.part), record.row.pressure_drop,
                         record.row.dents);

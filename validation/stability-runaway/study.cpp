@@ -114,7 +114,7 @@ double time_to(double stretch, const std::vector<SeriesRow> &rows) {
 
 SteadyRecord steady_record(double capillary_number) {
   const Case physics = sphere(capillary_number);
-  return record_steady(on_mesh(physics, nodes, find_steady(physics, {}, {})), 1);
+  return record_steady(on_mesh(physics, nodes, find_steady(physics, {}, {})));
 }
 
 std::string tube_text(double capillary_number, bool below) {

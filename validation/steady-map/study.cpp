@@ -93,7 +93,7 @@ Row row_of_map(const MembraneLaw &law, int row, const SteadyState &chain) {
   double pressure = 0;
   const Gauge gauge = gauge_of(*middle_state.system);
   const auto look_at = [&](const SteadyState &state, const SteadySystem::Linearisation &linear, int column) {
-    const SteadyRecord record = record_steady(state, linear, gauge, 1);
+    const SteadyRecord record = record_steady(state, linear, gauge);
     if (!(record.further.at("growth_rate") < 0))
       return;
     lines[column] =
@@ -112,7 +112,7 @@ Row row_of_map(const MembraneLaw &law, int row, const SteadyState &chain) {
   if (row % compared == 0) {
     const auto &[column, state] = strongest;
     const SteadyState finer = on_mesh(case_at(law, row, column), finer_mesh(nodes), state);
-    result.apart = std::abs(record_steady(finer, 1).row.pressure_drop / pressure - 1);
+    result.apart = std::abs(record_steady(finer).row.pressure_drop / pressure - 1);
   }
   for (int column = 0; column < columns; ++column) // gnuplot draws grids: each row as long as the others
     result.text += lines.contains(column)

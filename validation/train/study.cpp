@@ -78,7 +78,7 @@ std::string rows_of(const Train &train) {
     try {
       const Numbers on_coarse = at_parameters(physics, state), on_fine = at_parameters(physics, finer);
       const SteadyRecord record =
-          record_steady(finer, 1); // of rigid spheres in the strongest of three weak flows
+          record_steady(finer); // of rigid spheres in the strongest of three weak flows
       const Numbers rough = is_rigid ? rigid_limit(physics, state) : on_coarse;
       const Numbers exact = is_rigid ? rigid_limit(physics, finer) : on_fine;
       rows += fmt::format("{}{},{},{},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f},{:.6f},{:.6f},{:.9f}",
