@@ -157,9 +157,9 @@ const Conductor::Surface &Conductor::felt_by(const MembraneMesh &mesh, const Vec
     felt.points =
         joined({felt.wall.x, felt.wall.r}, {whole_.points.x.tail(others), whole_.points.r.tail(others)});
     const Joining joining(whole_.along, felt.along, 1);
-    felt.inverse = joining.columns(joining.rows(whole_.inverse));
+    felt.inverse = joining.both_sides(whole_.inverse);
     if (whole_.base.size() > 0)
-      felt.base = joining.rows(whole_.base);
+      felt.base = joining(whole_.base);
     felt_ = std::move(felt);
     place_ = std::move(place);
   }

@@ -7,7 +7,8 @@
 
 namespace capsule {
 
-// Keeps the compressed wall of the last place: a march asks for some hundred flows before its capsule has left it.
+// Keeps the compressed walls of the last two places: a march asks for some hundred flows before its capsule has left one,
+// and may come back to the one before, when a step is tried again or the shape hovers between two.
 class CompressedWall {
 public:
   explicit CompressedWall(Wall whole) : whole_(std::make_shared<const Wall>(std::move(whole))) {}
@@ -18,8 +19,14 @@ public:
 
 private:
   std::shared_ptr<const Wall> whole_;
-  mutable std::vector<Surroundings> place_;
-  mutable std::shared_ptr<const Wall> compressed_;
+  struct Felt {
+    std::vector<Surroundings> place;
+    Vector edges; // of the joined panels
+    std::shared_ptr<const Wall> wall;
+  };
+  std::shared_ptr<const Wall> compressed(const Vector &edges) const;
+
+  mutable Felt last_, before_;
 };
 
 } // namespace capsule

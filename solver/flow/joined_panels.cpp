@@ -105,21 +105,12 @@ Joining::Joining(const Panels &whole, const Panels &longer, int components)
   }
 }
 
-RowMatrix Joining::rows(const RowMatrix &matrix) const {
-  RowMatrix result(components_ * coarse_ + 1, matrix.cols());
-  result.row(coarse_) = matrix.row(fine_);
-  for_each_component([&](const Joined &panel, Eigen::Index from, Eigen::Index to) {
-    const auto values = matrix.middleRows(from, panel.count);
-    if (panel.interpolation.size() == 0)
-      result.middleRows(to, panel.points) = values;
-    else
-      result.middleRows(to, panel.points).noalias() = panel.interpolation.transpose() * values;
-  });
-  return result;
+Vector Joining::operator()(const Vector &values) const {
+  return columns(values.transpose()).transpose();
 }
 
-RowMatrix Joining::columns(const RowMatrix &matrix) const {
-  RowMatrix result(matrix.rows(), components_ * coarse_ + 1);
+RowMatrix Joining::columns(const Eigen::Ref<const RowMatrix> &matrix) const {
+  RowMatrix result(matrix.rows(), unknowns());
   result.col(coarse_) = matrix.col(fine_);
   for_each_component([&](const Joined &panel, Eigen::Index from, Eigen::Index to) {
     const auto values = matrix.middleCols(from, panel.count);
@@ -127,6 +118,20 @@ RowMatrix Joining::columns(const RowMatrix &matrix) const {
       result.middleCols(to, panel.points) = values;
     else
       result.middleCols(to, panel.points).noalias() = values * panel.interpolation;
+  });
+  return result;
+}
+
+// By rows of a panel, which stay in the cache.
+RowMatrix Joining::both_sides(const RowMatrix &matrix) const {
+  RowMatrix result(unknowns(), unknowns());
+  result.row(coarse_) = columns(matrix.row(fine_));
+  for_each_component([&](const Joined &panel, Eigen::Index from, Eigen::Index to) {
+    const RowMatrix values = columns(matrix.middleRows(from, panel.count));
+    if (panel.interpolation.size() == 0)
+      result.middleRows(to, panel.points) = values;
+    else
+      result.middleRows(to, panel.points).noalias() = panel.interpolation.transpose() * values;
   });
   return result;
 }

@@ -30,10 +30,10 @@ Curve on_longer_panels(const Curve &curve, const Panels &whole, const Panels &lo
 class Joining {
 public:
   Joining(const Panels &whole, const Panels &longer, int components);
-  // P^T M
-  RowMatrix rows(const RowMatrix &matrix) const;
-  // M P
-  RowMatrix columns(const RowMatrix &matrix) const;
+  // P^T y
+  Vector operator()(const Vector &values) const;
+  // P^T M P
+  RowMatrix both_sides(const RowMatrix &matrix) const;
 
 private:
   // Points of the whole wall and those of the longer panel that they become; as they are without an interpolation.
@@ -49,6 +49,9 @@ private:
       for (Eigen::Index k = 0; k < components_; ++k)
         use(panel, k * (fine_ + 1) + panel.begin, k * (coarse_ + 1) + panel.first);
   }
+
+  Eigen::Index unknowns() const { return components_ * coarse_ + 1; }
+  RowMatrix columns(const Eigen::Ref<const RowMatrix> &matrix) const; // M P
 
   Eigen::Index components_, fine_, coarse_; // of points
   std::vector<Joined> joined_;

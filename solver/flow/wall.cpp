@@ -121,10 +121,10 @@ Wall::Wall(const Wall &whole, const Vector &edges)
       closed_form_(whole.closed_form_), base_pressure_drop_(whole.base_pressure_drop_) {
   constexpr int components = 2;
   const Joining joining(whole.panels_, panels_, components);
-  inverse_ = WallInverse(joining.columns(joining.rows(whole.inverse_.matrix()))); // P^T A^(-1) P
-  weights_ = joining.rows(whole.weights_);
+  inverse_ = whole.inverse_.joined(joining);
+  weights_ = joining(whole.weights_);
   if (whole.base_forces_.size() > 0)
-    base_forces_ = joining.rows(whole.base_forces_);
+    base_forces_ = joining(whole.base_forces_);
 }
 
 // C of (3.1): velocity at points, 2 n, from tractions of the wall and P'.

@@ -5,6 +5,7 @@
 // antisymmetric ones with such: each takes a matrix of half the size, which needs an eighth of the work to be inverted and a
 // quarter of it in products. The outlet, at one end only, borders the two. Throws nothing.
 #include "base/linear_algebra.hpp"
+#include "flow/joined_panels.hpp"
 #include <utility>
 
 namespace capsule {
@@ -26,6 +27,10 @@ public:
   template <class Answer = RowMatrix> // or RoughMatrix
   Answer answers(const RowMatrix &from_unknowns) const;
   RowMatrix matrix() const;
+  // P^T A^(-1) P: that of joined panels.
+  WallInverse joined(const Joining &joining) const {
+    return WallInverse(is_mirrored() ? joining.both_sides(matrix()) : joining.both_sides(whole_));
+  }
 
 private:
   Vector answer_of_points(const Vector &left_sides) const;

@@ -1,4 +1,5 @@
 // Flows with the compressed wall against flows with the whole wall.
+#include "flow/compressed_wall.hpp"
 #include "flow/flow.hpp"
 #include "spheroid.hpp"
 #include <boost/test/unit_test.hpp>
@@ -82,6 +83,25 @@ BOOST_AUTO_TEST_CASE(serves_other_liquids_and_several_capsules) {
       compare(wall_of(PoreShape::two_mouths, 60, to(tolerance)), to(tolerance), {9.5, -1}, 5);
   BOOST_TEST(walls.velocity < tolerance);
   BOOST_TEST(walls.pressure_drop < tolerance);
+}
+
+// A capsule that hovers between two places, or changes its size where this joins no other panels.
+BOOST_AUTO_TEST_CASE(is_kept_for_two_places) {
+  const FlowResolution resolution = to(1e-7);
+  const CompressedWall wall(wall_of(PoreShape::two_mouths, 60, resolution));
+  const MeridianBasis basis = spectral_basis(40);
+  const MembraneMesh mesh = make_membrane_mesh(basis, resolution);
+  const auto felt = [&](double x, double radius) { return wall.felt_by(mesh, sphere(basis, x, radius)); };
+  const auto first = felt(3.4, 0.8), second = felt(3.6, 0.8);
+  BOOST_TEST(first->unknowns() < wall.whole().unknowns());
+  BOOST_TEST(first->panels().edges.size() != second->panels().edges.size());
+  BOOST_TEST(felt(3.4, 0.8) == first);
+  BOOST_TEST(felt(3.6, 0.8) == second);
+  BOOST_TEST(felt(-3, 0.8)->unknowns() < second->unknowns()); // a third place
+  const auto again = felt(3.4, 0.8);
+  BOOST_TEST((again->panels().edges == first->panels().edges));
+  BOOST_TEST(felt(3.4, 0.81) == again);
+  BOOST_TEST(felt(3.4, 0.8) == again);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
