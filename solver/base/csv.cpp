@@ -151,8 +151,10 @@ std::vector<CsvRow> read_csv(const fs::path &file, char comment, LineMistakes &m
   });
   if (names == rows.end())
     return rows;
-  if (has_other_separators(*names))
-    throw InputError(mistake(names->line, "semicolons or tabs stand between the fields"));
+  if (has_other_separators(*names)) {
+    mistakes.emplace(names->line, mistake(names->line, "semicolons or tabs stand between the fields"));
+    throw InputError(in_order(mistakes));
+  }
   drop_empty_end(*names, 1);
   for (CsvRow &row : rows)
     drop_empty_end(row, names->fields.size());

@@ -16,16 +16,16 @@ struct CsvRow {
 };
 
 // All rows, that of the names first; none of an empty file. Throws FileError if the file cannot be read, and InputError,
-// with the line and how to save the file, if it is not UTF-8, if semicolons or tabs stand between the fields, or if a
-// quote is not closed.
+// with the line and how to save the file, if it is not UTF-8, if semicolons or tabs stand between the fields, if a quote is
+// not closed, or if text follows a closed one.
 std::vector<CsvRow> read_csv(const std::filesystem::path &file);
 // Lines that begin with this character are rows of one field, as they stand; the first of the others names the columns.
 std::vector<CsvRow> read_csv(const std::filesystem::path &file, char comment);
 // What is wrong with lines of a file, as InputError says it, by the number of the line.
 using LineMistakes = std::multimap<std::size_t, std::string>;
 std::string in_order(const LineMistakes &mistakes);
-// The same, and what is wrong with quotes that are not closed is told with other mistakes: it is added to these, and the lines
-// with such quotes are left out.
+// The same, and what is wrong with quotes is told with other mistakes: it is added to these, and the lines with such quotes are
+// left out.
 std::vector<CsvRow> read_csv(const std::filesystem::path &file, char comment, LineMistakes &mistakes);
 
 // The columns of a table of numbers, by name. Throws as read_csv, and InputError, with its row and column, for what is no

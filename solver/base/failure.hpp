@@ -29,7 +29,7 @@ inline constexpr const char *touching = "touching", *self_contact = "self-contac
 struct NumericsFailure : std::runtime_error {
   std::string kind;
   std::string advice;
-  std::size_t capsule = 0; // of several, that it is about; the leading one if it is about none
+  std::size_t capsule = 0; // number of the capsule; 0 where there is one or it concerns all
   NumericsFailure(std::string kind_, const std::string &what, std::string advice_)
       : std::runtime_error(what), kind(std::move(kind_)), advice(std::move(advice_)) {}
 };

@@ -12,7 +12,7 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 // Rows are contiguous: one row holds what all sources do to one target.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-// Of seven digits: a product takes half the time.
+// In single precision: a product takes half the time.
 using RoughMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // A square matrix times `blocks`, of the same size, which has no entries between different parts. A part is the list of its

@@ -21,8 +21,8 @@ namespace capsule {
 
 // Potentials are smoother than tractions: a resolution with as many digits of the resistance as one has of the flow.
 FlowResolution conductor_resolution(FlowResolution resolution);
-// Two points less on each panel: the error is then 2 to 25 times as large, where with fewer nodes and longer panels in the
-// tube, all that the companion of a march has, it is the same, as it is made at the lips.
+// Two points less on each panel: the error is then larger (methods.md), where with fewer nodes and longer panels in the tube, all
+// that the companion of a march has, it is the same, as it is made at the lips.
 FlowResolution coarser_conductor(FlowResolution resolution);
 
 class Conductor {

@@ -81,7 +81,7 @@ public:
     for (int nodes = finer_mesh(states_->nodes());
          nodes < most_nodes && states_->unresolved() > std::max(part * states_->noise(), smallest);
          nodes = finer_mesh(nodes)) {
-      states_->change_mesh(nodes);
+      states_->change_mesh(nodes, control_);
       minimum_ = minimise(problem_, minimum_.parameters);
       if (!input_.fit.noise)
         estimate_noise();
@@ -152,7 +152,7 @@ private:
     minimum_ = minimise(problem_, start);
     for (int nodes = finer_mesh(states_->nodes()); !minimum_.failure.empty() && nodes < most_to_search_on;
          nodes = finer_mesh(nodes)) {
-      states_->change_mesh(nodes);
+      states_->change_mesh(nodes, control_);
       minimum_ = minimise(problem_, minimum_.parameters);
     }
   }
@@ -165,7 +165,7 @@ private:
       try {
         throw_if_interrupted(control_);
         const Case first = first_case(flow);
-        search(begin_at(on_mesh(first, first_nodes, find_steady(first, {}, control_))));
+        search(begin_at(on_mesh(first, first_nodes, find_steady(first, {}, control_), control_)));
         if (!best || minimum_.sum() < best->sum()) {
           best = minimum_;
           anchors = states_->anchors();

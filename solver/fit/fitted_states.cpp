@@ -110,10 +110,10 @@ Vector FittedStates::begin_with(const SteadyState &state) {
   return parameters;
 }
 
-void FittedStates::change_mesh(int nodes) {
+void FittedStates::change_mesh(int nodes, const Control &control) {
   std::vector<Anchor> finer;
   for (const Anchor &anchor : anchors_) {
-    const SteadyState state = on_mesh(anchor.state.system->input(), nodes, anchor.state);
+    const SteadyState state = on_mesh(anchor.state.system->input(), nodes, anchor.state, control);
     finer.push_back({state, anchor.values, sensitivities(*state.system, state.unknowns, keys_),
                      dense_meridian(state.system->membrane().basis)});
   }

@@ -24,8 +24,8 @@ public:
   // Where the search begins: one state for all contours, at the values of the keys that its system has.
   Vector begin_with(const SteadyState &state);
   Residuals evaluate(const Vector &parameters);
-  // Other meshes for the states, as fine as this and suited to their shapes. Throws NumericsFailure.
-  void change_mesh(int nodes);
+  // Other meshes for the states, as fine as this and suited to their shapes. Throws NumericsFailure and Interrupted.
+  void change_mesh(int nodes, const Control &control);
   double unresolved() const; // error of the positions, node_density.hpp: the largest of all states
   int nodes() const { return static_cast<int>(anchors_.front().state.system->nodes()); }
 

@@ -3,7 +3,7 @@
 // as f = q/epsilon.
 //
 // Everything is split into the flow without membranes (subscript e, found once) and the disturbance, which is
-// at rest on the exit section S_P and has a uniform pressure there:
+// at rest on the exit section S_P and has a uniform pressure there (behind a second mouth: outlet.hpp):
 //
 //   - on the wall and the exit 0 = A phi + b, with phi = (traction on S_B; P') and
 //     b = S_BM f/(8 pi) + D_BM (lambda - 1) v
@@ -74,7 +74,8 @@ public:
   Matrix friction_jacobian(const Interaction &interaction, const Vector &velocity) const;
   // dv/df for frozen shapes, 2N x 2N.
   Matrix mobility(const Interaction &interaction, Recycled &recycled) const;
-  // To five digits, in less time: for where what is missed is corrected.
+  // With the wall's answer in single precision, in less time and to some thousandths (test_flow.cpp): for where what is missed
+  // is corrected.
   Matrix rough_mobility(const Interaction &interaction, Recycled &recycled) const;
 
 private:

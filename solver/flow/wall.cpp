@@ -106,7 +106,7 @@ Wall::Wall(const Pore &pore, const FlowResolution &resolution)
     closed_form_ = poiseuille_flow;
     base_pressure_drop_ = poiseuille_pressure_drop(pore.entrance_arc);
   } else {
-    // Between two mouths it is whole as well: a march needs less of it (compressed_wall.hpp).
+    // Between two mouths the halves are expanded: joined panels need the whole inverse (compressed_wall.hpp).
     inverse_ = WallInverse(pore.shape == PoreShape::two_mouths
                                ? mirrored_inverse().matrix()
                                : RowMatrix(weights_.asDiagonal() * lu_inverse(matrix())));

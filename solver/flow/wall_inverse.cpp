@@ -1,4 +1,5 @@
 #include "flow/wall_inverse.hpp"
+#include <stdexcept>
 
 namespace capsule {
 namespace {
@@ -39,6 +40,8 @@ RowMatrix at_points(const RowMatrix &rows) {
 WallInverse::WallInverse(const RowMatrix &of_first_half, const Vector &column, const Vector &row)
     : unknowns_(row.size()) {
   const Eigen::Index n = column.size() / 2;
+  if (n % 2 != 0)
+    throw std::invalid_argument("the halves of a mirrored wall have the same number of points");
   const RowMatrix between_points = at_points(of_first_half);
   for (int k = 0; k < 2; ++k)
     halves_[k] = lu_inverse(folded(between_points, signs[k]));

@@ -1,9 +1,9 @@
 #pragma once
 // A^(-1) of wall.hpp: from what stands on the left sides of the wall's equations to its unknowns. Both are a component
 // along x at n points, a value of the outlet, and a component along r at the points.
-//   A tube, or a pore with two mouths, is its own mirror image. To velocities that are mirror symmetric its wall answers with such forces, and to
-// antisymmetric ones with such: each takes a matrix of half the size, which needs an eighth of the work to be inverted and a
-// quarter of it in products. The outlet, at one end only, borders the two. Throws nothing.
+//   A tube, or a pore with two mouths, is its own mirror image. Its wall answers symmetric velocities by symmetric forces and
+// antisymmetric ones by antisymmetric forces: each takes a matrix of half the size, which needs an eighth of the work to be
+// inverted and a quarter of it in products. The outlet, at one end only, borders the two.
 #include "base/linear_algebra.hpp"
 #include "flow/joined_panels.hpp"
 #include <utility>
@@ -14,7 +14,7 @@ class WallInverse {
 public:
   WallInverse() = default;
   explicit WallInverse(RowMatrix whole) : unknowns_(whole.rows()), whole_(std::move(whole)) {}
-  // Of a wall whose points, an even number, lie symmetrically. Of A: the rows of the first half of the points (n x 2n + 1),
+  // Of a wall whose points lie symmetrically. Throws std::invalid_argument if their number is odd. Of A: the rows of the first half of the points (n x 2n + 1),
   // the column of the outlet at all points (2n), and its row (2n + 1).
   WallInverse(const RowMatrix &of_first_half, const Vector &column, const Vector &row);
 

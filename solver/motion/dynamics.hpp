@@ -15,8 +15,8 @@ struct Dynamics {
   std::shared_ptr<const Scene> scene;
   // Throw NumericsFailure when the shape is no capsule in the pore any more.
   std::function<FlowState(const Vector &position)> flow;
-  // The same with the second route to the pressure drop. Those of regular rows are flows like others; no later flow or
-  // report depends on those of other rows.
+  // The same with the second route to the pressure drop. A row is regular if it is due whatever profiles are asked for
+  // (stations.hpp): its flow is one like others, and no later flow or report depends on those of other rows.
   std::function<FlowState(const Vector &position, bool regular)> report;
   // Only of the standard preset: the membranes' load, f of flow.hpp, and its derivative with frozen nodal areas; d velocity/
   // d load, the mobility; and d velocity/d position with frozen mobility and the exact derivative of load and friction.

@@ -56,7 +56,7 @@ Outcome march_to_end(const Case &input, const Checkpoint &from, const Control &c
 constexpr std::array meshes{1.0, 1.5, 3.0};
 
 // Failures that may be the mesh's own. On the chosen mesh many kinds may be; on a finer one they are believed. Where
-// steps get ever shorter the finest is tried as well: one of sixty random marches arrives there.
+// steps get ever shorter the finest is tried as well: some marches arrive there (methods.md).
 bool may_pass_on_finer_mesh(const Outcome &outcome, double mesh) {
   if (outcome.status != Status::failed || mesh == meshes.back())
     return false;

@@ -1,5 +1,6 @@
 #include "steady/refinement.hpp"
 #include "case/physical.hpp"
+#include "flow/undisturbed.hpp"
 #include "observe/quantities.hpp"
 #include "steady/growth_rates.hpp"
 #include "steady/work.hpp"
@@ -64,11 +65,11 @@ void estimate_errors(RefinedState &refined, const SeriesRow &row, const SeriesRo
     refined.coarser = std::move(coarser);
 }
 
-SteadyState second_coarser(const Case &input, const SteadyState &fine) {
+SteadyState second_coarser(const Case &input, const SteadyState &fine, const Control &control) {
   try {
     return on_coarser(fine, second_mesh);
   } catch (const NumericsFailure &) {
-    return on_mesh(input, nodes_of(second_mesh, fine.system->nodes()), fine);
+    return on_mesh(input, nodes_of(second_mesh, fine.system->nodes()), fine, control);
   }
 }
 
@@ -122,14 +123,14 @@ SeriesRow row_of(const SteadyState &state) {
 
 RefinedState refine(const Case &input, const SteadyState &state, const Control &control) {
   const bool given = input.mesh.membrane > 0;
-  RefinedState refined{given ? on_mesh(input, input.mesh.membrane, state) : state, {}, ""};
+  RefinedState refined{given ? on_mesh(input, input.mesh.membrane, state, control) : state, {}, ""};
   auto nodes = static_cast<int>(refined.state.system->nodes());
   refined.state.system->require_stiffness(refined.state.unknowns);
   SeriesRow row = row_of(refined.state);
   if (given || finer_mesh(nodes) > most_nodes) { // no finer mesh: coarser ones tell the error
-    const SteadyState coarser = on_mesh(input, nodes_of(first_mesh, nodes), refined.state);
+    const SteadyState coarser = on_mesh(input, nodes_of(first_mesh, nodes), refined.state, control);
     const SeriesRow coarse = row_of(coarser);
-    estimate_errors(refined, row, coarse, {coarser, second_coarser(input, refined.state)});
+    estimate_errors(refined, row, coarse, {coarser, second_coarser(input, refined.state, control)});
     if (!given && !agree(row, coarse, input.accuracy))
       refined.warning = with_physical_keys(poorly_resolved(nodes), input);
     return refined;
@@ -145,7 +146,7 @@ RefinedState refine(const Case &input, const SteadyState &state, const Control &
     const bool enough = agree(row, before, input.accuracy);
     if (!enough && finer_mesh(nodes) <= most_nodes)
       continue;
-    estimate_errors(refined, row, before, {coarser, second_coarser(input, refined.state)});
+    estimate_errors(refined, row, before, {coarser, second_coarser(input, refined.state, control)});
     if (!enough)
       refined.warning = with_physical_keys(poorly_resolved(nodes), input);
     return refined;
@@ -171,8 +172,7 @@ SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Lineari
     record.further["growth_per_length"] = slowest.real() / record.row.v_g;
   const double period = system.input().flow.period;
   if (period > 0) {
-    constexpr double poiseuille = 8; // pressure drop of a tube per radius
-    record.further["apparent_viscosity"] = 1 + record.row.pressure_drop / (poiseuille * period);
+    record.further["apparent_viscosity"] = 1 + record.row.pressure_drop / poiseuille_pressure_drop(period);
     record.further["pairing_growth_rate"] =
         slowest_rate(system, system.linearise(state.unknowns, Neighbours::opposed), Neighbours::opposed)
             .real();

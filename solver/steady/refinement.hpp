@@ -34,11 +34,11 @@ SteadyRecord record_steady(const SteadyState &state, const SteadySystem::Lineari
                            const Gauge &gauge);
 Gauge gauge_of(const SteadySystem &system);
 
+inline constexpr double error_safety = 2; // for what agrees by accident (paper-notes/methods.md)
 // Errors of the finest of several meshes: its differences from coarser ones, and the quadrature's error, which all may
-// share and which shows between the two pressure drops; times a factor for what agrees by accident (paper-notes/methods.md).
-// The quadrature's alone as a part of any quantity.
-inline constexpr double error_safety = 2;
+// share; times error_safety.
 std::map<std::string, double> errors_of(const SeriesRow &fine, const std::vector<SeriesRow> &coarser);
+// It shows between the two pressure drops, and is as large a part of any quantity.
 double relative_error_of_quadrature(const SeriesRow &row);
 // Of a state, without rates.
 SeriesRow row_of(const SteadyState &state);

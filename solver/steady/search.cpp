@@ -84,7 +84,7 @@ SteadyState by_relaxation(const Case &target, const Control &control) {
   return state;
 }
 
-// The same of one on another way, which says nothing of the case.
+// What the end of a branch on a way of its own says of the case: nothing.
 NumericsFailure of_this_way(const NumericsFailure &end) {
   return ends_branch(end)
              ? NumericsFailure(failure_kind::unresolved, end.what(), "try a larger membrane.bending_ratio")

@@ -5,7 +5,7 @@
 // lose, marches from the case's start to just behind the mouth.
 // A flow in which the capsule runs away, or in which neither leads to a state, may be too strong: a stiff membrane tells
 // (strong_flow.hpp). Then the capsule relaxes in weaker flows, from which a branch leads to the case's own, and last come
-// the branches from a small stiff sphere for every capsule. A state that is unstable is left for one that a long march
+// the branches from a small stiff sphere for every spheroid. A state that is unstable is left for one that a long march
 // reaches, if that is stable.
 // A train begins with one capsule alone.
 #include "observe/outcome.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// The steady state of a case without marching in time, from nothing (homotopy.hpp) or from a profile
+// The steady state of a case without marching in time, from nothing (search.hpp) or from a profile
 // (from_profile.hpp), on a mesh that is fine enough (refinement.hpp).
 #include "observe/outcome.hpp"
 #include "steady/mesh_change.hpp"

@@ -163,6 +163,26 @@ BOOST_AUTO_TEST_CASE(extreme_viscosity_ratios) {
   BOOST_TEST(std::abs(2 * more_viscous.pressure_drop - viscous.pressure_drop - 7.735446) < 2e-5);
 }
 
+// The velocity is linear in the load. The wall's inverse has large entries, whose last digits in single precision are
+// thousandths of the rough mobility.
+BOOST_AUTO_TEST_CASE(mobility_is_the_velocity_of_loads) {
+  const MeridianBasis basis = spectral_basis(24);
+  const Eigen::Index n = basis.size();
+  const Wall wall(make_pore({.shape = PoreShape::two_mouths, .exit_x = 4}).value(), {});
+  const Vector position = sphere(basis, 1, 0.7);
+  const Vector load = Vector::LinSpaced(2 * n, -1, 2).array().cube();
+  for (const double lambda : {1.0, 5.0}) {
+    const Flow flow = drop_in(wall, basis, lambda);
+    const Interaction interaction = flow.interact(position);
+    Recycled recycled;
+    const Vector velocity = flow.solve(interaction, load, recycled).velocity -
+                            flow.solve(interaction, Vector::Zero(2 * n), recycled).velocity;
+    const Matrix mobility = flow.mobility(interaction, recycled);
+    BOOST_TEST((mobility * load - velocity).norm() < 1e-8 * velocity.norm());
+    BOOST_TEST((flow.rough_mobility(interaction, recycled) - mobility).norm() < 1e-2 * mobility.norm());
+  }
+}
+
 // With lambda != 1 the two routes to the pressure drop meet through different integrals.
 BOOST_AUTO_TEST_CASE(pressure_drop_by_two_routes) {
   const MeridianBasis basis = spectral_basis(40);

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 using namespace capsule;
@@ -115,6 +116,13 @@ BOOST_AUTO_TEST_CASE(mirrored_inverse_is_that_of_the_whole_matrix) {
   BOOST_TEST((inverse.answer(left_sides) - exact * left_sides).cwiseAbs().maxCoeff() < 1e-12 * scale);
   BOOST_TEST(std::abs(inverse.answer_of_outlet(left_sides) - exact.row(n).dot(left_sides)) < 1e-12 * scale);
   BOOST_TEST((inverse.matrix() - exact).cwiseAbs().maxCoeff() < 1e-12 * scale);
+  const RowMatrix from_unknowns = exact.topRows(3), answers = from_unknowns * exact;
+  const double largest = answers.cwiseAbs().maxCoeff();
+  BOOST_TEST((inverse.answers(from_unknowns) - answers).cwiseAbs().maxCoeff() < 1e-12 * largest);
+  const RoughMatrix rough = inverse.answers<RoughMatrix>(from_unknowns);
+  BOOST_TEST((rough.cast<double>() - answers).cwiseAbs().maxCoeff() < 1e-5 * largest);
+  BOOST_CHECK_THROW(WallInverse(of_first_half, Vector::Ones(2 * (n - 1)), whole.row(n)),
+                    std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
