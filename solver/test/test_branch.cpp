@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(fold_of_a_neo_hookean_capsule) {
 
 // The rear of a capsule snaps through at one fold and back at the other; the least stable motion is at rest at both.
 BOOST_AUTO_TEST_CASE(folds_of_a_rear_that_snaps_through) {
-  Case physics = neo_hookean_case(64);
+  Case physics = neo_hookean_case(56);
   physics.capsule.radius = 0.9;
   physics.membrane.bending_ratio = 1e-3;
   physics.flow.capillary_number = 5e-3;

@@ -13,7 +13,7 @@ BOOST_AUTO_TEST_SUITE(empty_pore)
 // Angles between those of the fit. The reservoir's end at 300 radii costs up to 1e-6 where the mouth is narrow, and a sharp
 // lip takes shorter panels.
 BOOST_AUTO_TEST_CASE(as_the_walls_say) {
-  for (const double degrees : {25.0, 50.0, 70.0, 78.5, 84.0, 90.0})
+  for (const double degrees : {25.0, 60.0, 84.0, 90.0})
     for (const PoreShape shape : {PoreShape::hyperbolic, PoreShape::two_mouths}) {
       const PoreSpec spec{
           .shape = shape, .opening_angle_deg = degrees, .exit_x = 4, .entrance_distance = 300};

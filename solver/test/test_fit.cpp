@@ -89,9 +89,9 @@ BOOST_AUTO_TEST_CASE(the_capsule_of_a_march_is_found) {
   input.accuracy = 1e-5;
   input.capsule.start_x = 0;
   input.pore.shape = PoreShape::tube;
-  input.pore.exit_x = 18;
+  input.pore.exit_x = 15;
   input.pore.entrance_distance = 6;
-  input.until.x_g = 12;
+  input.until.x_g = 10;
   const Outcome marched = march_once(input, {}, {}, Role::main);
   BOOST_REQUIRE_MESSAGE(marched.status == Status::reached, marched.message);
   const Profile &last = marched.last.profiles.back();

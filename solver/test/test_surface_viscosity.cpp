@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(energy_becomes_heat) {
   };
   // Shells of the membrane's shape about a point inside, out to infinity.
   const Panels angles = make_panels(Vector::LinSpaced(3, 0, pi), 8);
-  const Panels shells = make_panels(Vector::LinSpaced(2, 0, 1), 10);
+  const Panels shells = make_panels(Vector::LinSpaced(2, 0, 1), 8);
   const Sampling at = sample(membrane.basis, angles.points, angles.weights);
   const Trace curve = trace(at, position);
   double in_liquids = 0;

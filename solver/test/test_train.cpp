@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(estimates_bound_the_errors) {
   const Outcome usual = steady(physics, {}, {});
   physics.accuracy = 1e-6;
   const SteadyRecord exact =
-      record_steady(on_mesh(physics, 96, find_steady(physics, usual.last.profiles.at(0), {})));
+      record_steady(on_mesh(physics, 80, find_steady(physics, usual.last.profiles.at(0), {})));
   const auto bounded = [&](const char *quantity, double value, double true_value) {
     const double error = std::abs(value - true_value), estimate = usual.error_estimate.at(quantity);
     BOOST_TEST(error < estimate, quantity << ": " << error << ' ' << estimate);
