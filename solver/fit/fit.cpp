@@ -332,7 +332,7 @@ FitResult fit_contours(const Case &input, std::span<const Contour> contours, Fit
   }
   std::ranges::stable_sort(result.candidates, {},
                            [](const Candidate &c) { return std::pair(!c.failure.empty(), c.aic); });
-  const Candidate &best = result.candidates.front();
+  Candidate &best = result.candidates.front();
   if (!best.failure.empty())
     throw NumericsFailure(failure ? failure->kind : failure_kind::unresolved, "no fit: " + best.failure,
                           "try other laws or bounds, or a smaller set of unknowns");
@@ -342,6 +342,11 @@ FitResult fit_contours(const Case &input, std::span<const Contour> contours, Fit
   LawFit &fit = fits.at(best.law);
   refuse_other_shapes(fit.states(), fit.minimum());
   fit.settle();
+  // The evidence stays that of meshes on which no law was better resolved than the others.
+  const Candidate settled = candidate_of(fit, best.law, result.noise_is_given);
+  best.parameters = settled.parameters;
+  best.residual = settled.residual;
+  best.chi_squared = settled.chi_squared;
   found.insert_or_assign(best.law, std::pair(fit.states().anchors().front().state, fit.minimum().parameters));
   result.law = best.law;
   result.noise = fit.states().noise();

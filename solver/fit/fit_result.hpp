@@ -22,8 +22,9 @@ struct Candidate {
   double residual = 0;    // root mean square of the distances, in R_t
   double chi_squared = 0; // with an estimated noise: the degrees of freedom
   Eigen::Index rows = 0;
-  double aic = 0, evidence_ratio = 0; // to the best candidate
-  std::string failure;                // why there is no fit
+  // To the best candidate; from before the mesh of that one was refined further.
+  double aic = 0, evidence_ratio = 0;
+  std::string failure; // why there is no fit
 };
 
 struct FittedContour {

@@ -135,6 +135,26 @@ BOOST_AUTO_TEST_CASE(the_modulus_follows_from_flow_rate_or_velocity) {
   }
 }
 
+// Residual, noise and points are of the same mesh: an outline without noise is followed far below the first mesh's error.
+BOOST_AUTO_TEST_CASE(the_residual_is_that_of_the_points) {
+  const Contour contour = outline_of(inflated_state());
+  Case unknown = inflated_case();
+  unknown.fit.unknowns = {"capsule.radius", flow_key};
+  FitStarts starts;
+  const FitResult fit = fit_contours(unknown, std::span(&contour, 1), starts, {});
+  double sum = 0;
+  for (const Foot &foot : fit.contours[0].feet)
+    sum += foot.distance * foot.distance;
+  const auto points = static_cast<double>(fit.contours[0].feet.size());
+  const double residual = std::sqrt(sum / points);
+  BOOST_TEST(residual < 1e-6);
+  BOOST_TEST(std::abs(fit.residual - residual) < 0.01 * residual);
+  BOOST_TEST(fit.candidates[0].residual == fit.residual);
+  const auto free = static_cast<double>(fit.degrees_of_freedom);
+  BOOST_TEST(std::abs(fit.noise - fit.residual * std::sqrt(points / free)) < 0.01 * fit.noise);
+  BOOST_TEST(std::abs(fit.chi_squared - free) < 0.01 * free);
+}
+
 // Weak flows are not cut off.
 BOOST_AUTO_TEST_CASE(a_small_capillary_number_is_found) {
   Case input = inflated_case();
