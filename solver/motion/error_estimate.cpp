@@ -89,7 +89,7 @@ double difference_around(double x_g, const std::vector<RowPair> &pairs, double S
   return largest;
 }
 
-// Of a value that is the largest on the way.
+// Of a value that is the largest on the way; of one pair at least.
 double difference_around_largest(const std::vector<RowPair> &pairs, double SeriesRow::*value) {
   const SeriesRow &top = *std::ranges::max_element(pairs, {}, [value](const RowPair &pair) {
                             return (*pair.fine).*value;
@@ -131,9 +131,11 @@ std::map<std::string, double> differences(const std::vector<RowPair> &leading, c
 std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine,
                                               const std::vector<SeriesRow> &coarse, bool by_x_g,
                                               Scheme scheme) {
+  const std::vector<RowPair> pairs = pair_rows(fine, coarse, by_x_g ? &SeriesRow::x_g : &SeriesRow::time);
+  if (pairs.empty())
+    return {};
   const std::optional<Peak> peak = entry_peak(fine);
   const std::optional<Peak> coarse_peak = entry_peak(coarse);
-  const std::vector<RowPair> pairs = pair_rows(fine, coarse, by_x_g ? &SeriesRow::x_g : &SeriesRow::time);
   std::map<std::string, double> error = differences(pairs, fine.back(), pairs, by_x_g, "");
   const auto add = [&](const std::string &name, double difference) {
     error[name] = std::max(error[name], std::abs(difference));
@@ -187,6 +189,7 @@ void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fi
   const auto transit = transit_of(physics, fine), other = transit_of(physics, coarse);
   if (!transit || !other)
     return;
+  const std::vector<RowPair> pairs = pair_rows(fine, coarse, &SeriesRow::x_g);
   for (const TransitQuantity &quantity : transit_quantities()) {
     const std::string name = std::string("transit_") + quantity.name;
     double difference = std::abs(quantity.of(*transit) - quantity.of(*other));
@@ -194,9 +197,10 @@ void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fi
             quantity.duration) // the errors of its ends may cancel by accident: they are added
       difference = std::abs(((*transit).*duration).begin - ((*other).*duration).begin) +
                    std::abs(((*transit).*duration).end - ((*other).*duration).end);
+    else if (pairs.empty()) // the tops alone may agree by accident
+      continue;
     else if (std::isfinite(difference))
-      difference = std::max(difference, difference_around_largest(pair_rows(fine, coarse, &SeriesRow::x_g),
-                                                                  &SeriesRow::resistance));
+      difference = std::max(difference, difference_around_largest(pairs, &SeriesRow::resistance));
     if (std::isfinite(difference))
       errors[name] = safety_of(name, physics.time.scheme) * difference;
   }

@@ -13,7 +13,8 @@ struct Case;
 
 // Of what summary.json reports, by name: the largest difference times a margin over all rows at the same x_g, "v_g@x_g",
 // or at the same time, "v_g@time", and over the last part of the way, "v_g"; a single row may agree by accident. Of the
-// largest values over the way, "largest_tension", the difference half a radius around. Neither series may be empty.
+// largest values over the way, "largest_tension", the difference half a radius around. Neither series may be empty. Without
+// rows at the same x_g or time nothing tells the errors: there are no estimates.
 std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine,
                                               const std::vector<SeriesRow> &coarse, bool by_x_g,
                                               Scheme scheme);
@@ -23,7 +24,8 @@ std::map<std::string, double> estimate_errors(const std::vector<SeriesRow> &fine
 void add_errors_of_followers(const Checkpoint &fine, const Checkpoint &coarse, bool by_x_g, Scheme scheme,
                              std::map<std::string, double> &errors);
 
-// Of the transit's numbers, "transit_time" ..., which both marches have.
+// Of the transit's numbers, "transit_time" ..., which both marches have; of the pulse's height only where rows of both are at
+// the same x_g.
 void add_errors_of_transit(const Case &physics, const std::vector<SeriesRow> &fine,
                            const std::vector<SeriesRow> &coarse, std::map<std::string, double> &errors);
 

@@ -8,6 +8,8 @@
 #include "scene/resolution.hpp"
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
+#include <string>
 #include <utility>
 
 namespace capsule {
@@ -129,6 +131,10 @@ MainMarch main_march(const Case &input, const Checkpoint &from, const Control &c
   }
 }
 
+void add_remark(std::string &message, const std::string &remark) {
+  message += (message.empty() ? "" : "; ") + remark;
+}
+
 } // namespace
 
 Outcome march(const Case &input, const Checkpoint &from, const Control &control) {
@@ -153,16 +159,21 @@ Outcome march(const Case &input, const Checkpoint &from, const Control &control)
   if (coarse.status == Status::interrupted)
     outcome.status = Status::interrupted;
   else if (coarse.status == Status::reached || coarse.status == Status::burst) {
+    const bool by_x_g = input.until.by_place();
     outcome.error_estimate =
-        estimate_errors(outcome.last.series, coarse.last.series, input.until.by_place(), input.time.scheme);
-    add_errors_of_followers(outcome.last, coarse.last, input.until.by_place(), input.time.scheme,
-                            outcome.error_estimate);
+        estimate_errors(outcome.last.series, coarse.last.series, by_x_g, input.time.scheme);
+    if (outcome.error_estimate.empty())
+      add_remark(outcome.message,
+                 fmt::format("no error estimates along the way, because no row of the coarse "
+                             "companion is at the same {} as one of this march",
+                             by_x_g ? "x_g" : "time"));
+    else
+      add_errors_of_followers(outcome.last, coarse.last, by_x_g, input.time.scheme, outcome.error_estimate);
     add_errors_of_transit(input, outcome.last.series, coarse.last.series, outcome.error_estimate);
     if ((bursts && coarse.status == Status::burst) || (!bursts && input.until.last_x_g))
       add_errors_of_the_end(outcome.last, coarse.last, input.time.scheme, outcome.error_estimate);
   } else
-    outcome.message += (outcome.message.empty() ? "" : "; ") +
-                       ("no error estimate, because the coarse companion failed: " + coarse.message);
+    add_remark(outcome.message, "no error estimate, because the coarse companion failed: " + coarse.message);
   return outcome;
 }
 

@@ -152,6 +152,34 @@ BOOST_AUTO_TEST_CASE(delays_do_not_cancel_in_the_time_of_a_transit) {
   BOOST_TEST(error.at("transit_time") == 6 * 2e-3, tolerance(1e-9));
 }
 
+// Two marches that burst before they come to a common place.
+BOOST_AUTO_TEST_CASE(without_rows_at_the_same_place_there_are_no_estimates) {
+  const Series fine = pulse();
+  Series coarse = fine;
+  for (SeriesRow &row : coarse)
+    row.x_g += 1e-5;
+  BOOST_TEST(estimate_errors(fine, coarse, true, Scheme::bdf).empty());
+}
+
+// Tops without rows around them say nothing; the times of a transit are the marches' own.
+BOOST_AUTO_TEST_CASE(a_pulse_without_rows_at_the_same_place_has_no_estimate) {
+  Case physics;
+  physics.pore.shape = PoreShape::two_mouths;
+  physics.output.resistance = true;
+  physics.output.transit_from = 0.5;
+  physics.output.transit_to = 1.5;
+  Series fine = pulse();
+  for (SeriesRow &row : fine)
+    row.resistance = row.pressure_drop;
+  Series coarse = fine;
+  for (SeriesRow &row : coarse)
+    row.x_g += 1e-5;
+  std::map<std::string, double> error;
+  add_errors_of_transit(physics, fine, coarse, error);
+  BOOST_TEST(!error.contains("transit_pulse_height"));
+  BOOST_TEST(error.contains("transit_time"));
+}
+
 // Length and diameter err by the same share: the deformation agrees, but their errors are what it is made of.
 BOOST_AUTO_TEST_CASE(errors_of_length_and_diameter_do_not_cancel_in_the_deformation) {
   const auto deformation = [](double length, double diameter) {
