@@ -236,8 +236,10 @@ void SplitBdf::choose_next(const Trial &trial, const Vector &state, double error
   memory_.step = best > 1 && best < as_long ? step : step * std::min(best, most_growth);
 }
 
-// False where another attempt is to be made, with other matrices or a shorter step.
-bool SplitBdf::try_step() {
+// False where another attempt is to be made, with other matrices or a shorter step. What failed in a longer one is no cause
+// any more where the error asks for a shorter one. Corrections that do not end say nothing: before a place without rates
+// steps get too short for the digits of the time.
+bool SplitBdf::try_step(std::optional<NumericsFailure> &cause) {
   if (memory_.mobility.age >= mobility_lasts ||
       (memory_.left_over > old_mobility && memory_.mobility.age >= mobility_lasts_at_least))
     freeze_mobility();
@@ -254,6 +256,7 @@ bool SplitBdf::try_step() {
     return false;
   }
   const auto shorten = [&](double error) {
+    cause.reset();
     constexpr double least = 0.2;
     memory_.step = (trial.time - memory_.past[0].time) *
                    std::max(least, safety * std::pow(error, -1 / (static_cast<double>(trial.order) + 1)));
@@ -294,7 +297,7 @@ void SplitBdf::step(double longest) {
   std::optional<NumericsFailure> cause;
   for (int k = 0; k < most_attempts; ++k)
     try {
-      if (try_step())
+      if (try_step(cause))
         return;
     } catch (const NumericsFailure &failure) {
       cause.emplace(failure);

@@ -9,11 +9,13 @@
 // A step so costs one rate, at the state of its first part. Between its ends the state, the rate, and what came with it, are
 // polynomials of the step's order. The error of a step is the difference of its end to the extrapolated past, times the
 // formula's factor. Everything that the next step depends on can be saved. paper-notes/methods.md has the measurements.
+#include "base/failure.hpp"
 #include "base/linear_algebra.hpp"
 #include "observe/step_memory.hpp"
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace capsule {
@@ -40,7 +42,8 @@ public:
   // Goes on from where another one was.
   SplitBdf(SplitEquations equations, StepMemory memory, double tolerance);
 
-  // One step, not longer than given. Throws what the rate throws, or NumericsFailure("step"), when no step is short enough.
+  // One step, not longer than given. When no step is short enough, throws what the rate throws, or NumericsFailure("step")
+  // where the rate is known in shorter steps but these have too large errors.
   void step(double longest = std::numeric_limits<double>::infinity());
   double time() const { return memory_.past[0].time; }
   double previous_time() const { return memory_.past.at(1).time; }
@@ -71,7 +74,7 @@ private:
   bool solve(Trial &trial);
   double error(const Trial &trial, std::size_t order, const Vector &state) const;
   void choose_next(const Trial &trial, const Vector &state, double error);
-  bool try_step();
+  bool try_step(std::optional<NumericsFailure> &cause);
 
   SplitEquations equations_;
   double tolerance_;

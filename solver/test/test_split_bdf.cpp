@@ -156,6 +156,22 @@ BOOST_AUTO_TEST_CASE(failures_of_the_rate_end_the_march_where_they_are) {
   BOOST_TEST(std::abs(integrator.state_at(integrator.time())[1] - 0.5) < 1e-4);
 }
 
+// The rate refuses the first attempt alone; in all shorter ones it is far from what was extrapolated.
+BOOST_AUTO_TEST_CASE(failures_of_longer_steps_are_no_cause) {
+  SplitEquations equations = circle();
+  int rates = 0;
+  equations.rate = [&](const Vector &state) -> SplitEquations::Rate {
+    ++rates;
+    if (rates == 2) // the first one is of the beginning
+      throw NumericsFailure("wall", "here is the wall", "go back");
+    return {rates == 1 ? rate_at(state) : Vector::Constant(3, 1e15)};
+  };
+  SplitBdf integrator(equations, 0, beginning, 1e-7);
+  BOOST_CHECK_EXCEPTION(integrator.step(), NumericsFailure,
+                        [](const NumericsFailure &failure) { return failure.kind == failure_kind::step; });
+  BOOST_TEST(rates > 3);
+}
+
 // Two circles as one system, with components in alternating order, whose loads do not depend on each other: the root mean
 // square of the error is that of one circle, and so are steps and states.
 BOOST_AUTO_TEST_CASE(parts_go_as_one_alone) {
