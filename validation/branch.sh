@@ -71,6 +71,9 @@ near "$(awk -F, 'END { print $2 }' curve/fold_curve.csv)" "$(of stiffer $key)" 1
 sed -n '/"fold_curve_end"/,/^  }/p' curve/summary.json >last
 near "$(sed -n "s/^    \"$key\": \([^,]*\),*/\1/p" last)" "$(of stiffer $key)" 1e-6 'the end of the curve in the summary'
 grep -q "^      \"$key\": [0-9.]*e-" last || fail 'the end of the curve has no error estimate'
+ends 0 branch case.toml --along $key --to 0.3 --fold-along $stiffer --fold-to 0.02 --out curve
+said=$(sed -n "s/.* at $stiffer = 0.02 the last one at \([0-9.]*\) +- .*/\1/p" log)
+near "$said" "$(of stiffer $key)" 1e-5 'the end of the curve on the line'
 near "$(awk -F, 'END { print $NF }' curve/fold_curve.csv)" 0 1e-3 'the growth rate at a fold'
 ends 3 branch case.toml --along $key --to 0.101 --fold-along $stiffer --fold-to 0.02 --out no-curve
 grep -q 'no fold on the way' log || fail 'there is nothing to follow'

@@ -180,11 +180,19 @@ Summary read_summary(const std::filesystem::path &directory) {
     summary.message = text("message");
     if (json->contains("along")) {
       summary.along = text("along");
-      for (const Json &fold : json->at("folds")) {
+      const auto place_of = [&](const Json &fold) -> FoldPlace {
         const Json errors = fold.value("error_estimate", Json::object()); // not of earlier versions
         const Json error = errors.value(summary.along, Json());
-        summary.folds.push_back({fold.at(summary.along), fold.at("max_stretch"),
-                                 error.is_number() ? std::optional(error.get<double>()) : std::nullopt});
+        return {fold.at(summary.along), fold.at("max_stretch"),
+                error.is_number() ? std::optional(error.get<double>()) : std::nullopt};
+      };
+      for (const Json &fold : json->at("folds"))
+        summary.folds.push_back(place_of(fold));
+      if (json->contains("fold_curve_end")) {
+        const Json &end = json->at("fold_curve_end");
+        summary.fold_along = text("fold_along");
+        summary.fold_along_value = end.at(summary.fold_along);
+        summary.end_of_fold_curve = place_of(end);
       }
     }
     for (const auto &[name, value] : json->items())

@@ -28,6 +28,9 @@ struct Summary {
   std::map<std::string, double> error_estimate;
   std::string along = {}; // of a branch: the key that varies
   std::vector<FoldPlace> folds = {};
+  std::string fold_along = {}; // the key along which the last of them is followed, and where that has led
+  double fold_along_value = 0;
+  std::optional<FoldPlace> end_of_fold_curve = {};
 
   // The failure, unless it is what the status says.
   std::string reason() const { return failure == status ? "" : failure; }

@@ -93,11 +93,12 @@ std::string outlet_remark(const std::vector<RunResult> &results) {
   }
   if (runs == 0)
     return "";
+  const Case &physics = results.front().input.physics;
   return fmt::format(
       "the two routes to the pressure drop differ by {:.0f} %{}, of which the estimate says nothing: the "
-      "end of the pore may be too near; a larger {} moves it away",
-      100 * largest, of_runs(" or less in ", runs, results),
-      with_physical_keys("pore.exit_x", results.front().input.physics));
+      "end of the pore may be too near; a larger {} moves it away{}",
+      100 * largest, of_runs(" or less in ", runs, results), with_physical_keys("pore.exit_x", physics),
+      physics.mesh.wall > 0 ? "; or mesh.wall may be too small: leave it out" : "");
 }
 
 std::string wrinkle_remark(const std::vector<RunResult> &results) {

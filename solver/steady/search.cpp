@@ -167,7 +167,10 @@ std::optional<SteadyState> from_a_stiff_sphere_at(double strength, const Case &i
       throw no_steady_state(failure);
     if (grows && way[done].first == bending_key && failure.kind == failure_kind::fold)
       throw_if_too_strong(*homotopy, input, control);
-    attempts.add(fmt::format("from a small stiff sphere at {} = {:.3g}", flow_key, strength), failure);
+    const double bending = number(bending_key, homotopy ? homotopy->state().system->input() : input);
+    attempts.add(fmt::format("from a small stiff sphere at {} = {:.3g}, with {} = {:.3g}", flow_key, strength,
+                             bending_key, bending),
+                 failure);
   }
   return {};
 }
