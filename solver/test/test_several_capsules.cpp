@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(rigid_limit) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Case physics = with(in_a_tube({skalak, {1}}, 0.8, {0.9, -0.9}), [&](Case &capsule) {
       capsule.flow.capillary_number = flow;
-      capsule.until.time = 0.1;
+      capsule.until.time = 0.16;
       capsule.mesh.membrane = 40;
     });
     const Outcome outcome = march_once(physics, {}, {}, Role::main);
