@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(mirrored_inverse_is_that_of_the_whole_matrix) {
   BOOST_TEST((inverse.answers(from_unknowns) - answers).cwiseAbs().maxCoeff() < 1e-12 * largest);
   const RoughMatrix rough = inverse.answers<RoughMatrix>(from_unknowns);
   BOOST_TEST((rough.cast<double>() - answers).cwiseAbs().maxCoeff() < 1e-5 * largest);
-  BOOST_CHECK_THROW(WallInverse(of_first_half, Vector::Ones(2 * (n - 1)), whole.row(n)),
+  BOOST_CHECK_THROW(WallInverse(of_first_half, Vector::Ones(2L * (n - 1)), whole.row(n)),
                     std::invalid_argument);
 }
 
