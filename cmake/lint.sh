@@ -25,7 +25,7 @@ tidy() {
   for file in fuzz/*.cpp; do
     printf '%s\n' "$file" | grep -qE "^$pattern" || continue
     echo "clang-tidy $file"
-    clang-tidy -quiet "$file" -- -std=c++20 -Isolver || return
+    clang-tidy -quiet "$file" -- -std=c++20 -Isolver $(pkg-config --cflags eigen3) || return
   done
 }
 if tidy "$1" >"$log" 2>/dev/null && grep -q '^clang-tidy' "$log"; then
