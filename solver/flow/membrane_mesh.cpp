@@ -122,10 +122,10 @@ Vector MembraneMesh::Part::values_at_panels(const Vector &nodal) const {
   return values;
 }
 
-Matrix MembraneMesh::Part::on_nodes(const RowMatrix &on_panels) const {
+Matrix MembraneMesh::Part::on_nodes(const RowMatrix &on_panels, int derivative) const {
   Matrix result(on_panels.rows(), 2 * nodes());
-  result.leftCols(nodes()) = on_panels.leftCols(points()) * at_panels.even[0];
-  result.rightCols(nodes()) = on_panels.rightCols(points()) * at_panels.odd[0];
+  result.leftCols(nodes()) = on_panels.leftCols(points()) * at_panels.even[derivative];
+  result.rightCols(nodes()) = on_panels.rightCols(points()) * at_panels.odd[derivative];
   return result;
 }
 

@@ -31,10 +31,10 @@ struct MembraneMesh {
     Eigen::Index first_node = 0, first_point = 0;
     Eigen::Index nodes() const { return basis.size(); }
     Eigen::Index points() const { return at_panels.zeta.size(); }
-    // Nodal values of this membrane alone, 2n -> values at its quadrature points, 2q; a matrix on those as one on nodal
-    // values.
+    // Nodal values of this membrane alone, 2n -> values at its quadrature points, 2q; a matrix on those, or on their
+    // derivatives in zeta of this order, as one on nodal values.
     Vector values_at_panels(const Vector &nodal) const;
-    Matrix on_nodes(const RowMatrix &on_panels) const;
+    Matrix on_nodes(const RowMatrix &on_panels, int derivative = 0) const;
   };
   std::vector<Part> parts;
   Eigen::Index nodes = 0, points = 0; // N, Q of all parts

@@ -36,20 +36,7 @@ Vector BasisMatrix::operator*(const Eigen::Ref<const Vector> &nodal) const {
 }
 
 Vector BasisMatrix::transposed_times(const Eigen::Ref<const Vector> &values) const {
-  if (!is_mirrored())
-    return whole_.transpose() * values;
-  const Eigen::Index pairs = whole_.rows() / 2, pairs_of_nodes = antisymmetric_.cols();
-  Vector same = values.head(symmetric_.rows()), opposite = same; // a point on the equator once
-  const Vector mirrored = sign_ * values.tail(pairs).reverse();
-  same.head(pairs) += mirrored;
-  opposite.head(pairs) -= mirrored;
-  const Vector symmetric = symmetric_.transpose() * same;
-  const Vector antisymmetric = antisymmetric_.transpose() * opposite;
-  Vector nodal(whole_.cols());
-  nodal.head(symmetric.size()) = symmetric; // a node on the equator is its own mirror image
-  nodal.head(pairs_of_nodes) = 0.5 * (symmetric.head(pairs_of_nodes) + antisymmetric);
-  nodal.tail(pairs_of_nodes).reverse() = 0.5 * (symmetric.head(pairs_of_nodes) - antisymmetric);
-  return nodal;
+  return (values.transpose() * *this).transpose();
 }
 
 Matrix operator*(const Eigen::Ref<const RowMatrix> &at_points, const BasisMatrix &matrix) {

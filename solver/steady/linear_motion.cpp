@@ -90,15 +90,6 @@ Dense times(const Dense &matrix, const Pointwise &map) {
   return result;
 }
 
-// Rows that act on a displacement's derivative of this order at points, as rows that act on its nodal values.
-Matrix on_nodes(const RowMatrix &at_points, const Sampling &at, int derivative) {
-  const Eigen::Index points = at.zeta.size(), n = at.even[0].whole().cols();
-  Matrix result(at_points.rows(), 2 * n);
-  result.leftCols(n) = at_points.leftCols(points) * at.even[derivative];
-  result.rightCols(n) = at_points.rightCols(points) * at.odd[derivative];
-  return result;
-}
-
 // f' of the head comment is the load's change at the nodes, interpolated, and these maps of the displacement and of its
 // derivative in zeta: the load times the change of the area that it acts on, less the stress of its jump on the strips that
 // the displacement sweeps.
@@ -169,24 +160,27 @@ Vector inner_shear(const Interaction &interaction, Matrix single, const Frame &a
 
 Matrix linear_motion(const Interaction &interaction, const NodalLayers &layers, const Membrane &membrane,
                      const Vector &position, const Vector &velocity, double capillary_number) {
-  const Sampling &nodes = membrane.at_nodes, &panels = interaction.mesh().parts[0].at_panels;
+  const Sampling &nodes = membrane.at_nodes;
+  const MembraneMesh::Part &part = interaction.mesh().parts[0];
   const Vector load = membrane_load(membrane, position) / capillary_number;
-  const Frame at_nodes = frame_at(nodes, position, load), at_panels = frame_at(panels, position, load);
+  const Frame at_nodes = frame_at(nodes, position, load),
+              at_panels = frame_at(part.at_panels, position, load);
   const Matrix nodal_change = load_jacobian(membrane, position, capillary_number);
   const RowMatrix &single = interaction.single_from_panels(), &dbl = interaction.double_from_panels();
   const CarriedLoad carried = carried_load(at_panels);
   const auto single_times = [&](const Pointwise &map) { return times(single, stokeslet_factor * map); };
   Matrix motion = layers.single * nodal_change;
-  motion += on_nodes(single_times(carried.of_displacement) - times(dbl, slip(at_panels)), panels, 0);
-  motion += on_nodes(single_times(carried.of_slope), panels, 1);
+  motion += part.on_nodes(single_times(carried.of_displacement) - times(dbl, slip(at_panels)));
+  motion += part.on_nodes(single_times(carried.of_slope), 1);
   // The wall answers to what the nodes have.
   const CarriedLoad carried_by_nodes = carried_load(at_nodes);
+  const Pointwise slip_at_nodes = slip(at_nodes);
   const Matrix load_change = nodal_change + of_displacement(nodes, carried_by_nodes.of_displacement, 0) +
                              of_displacement(nodes, carried_by_nodes.of_slope, 1);
   Matrix at_wall = layers.single_at_wall * load_change;
-  at_wall -= times(layers.double_at_wall, slip(at_nodes));
+  at_wall -= times(layers.double_at_wall, slip_at_nodes);
   motion -= layers.answer * at_wall;
-  motion -= of_displacement(nodes, 0.5 * slip(at_nodes), 0);
+  motion -= of_displacement(nodes, 0.5 * slip_at_nodes, 0);
   const Vector shear =
       inner_shear(interaction, layers.single, at_nodes, nodal_area(membrane, position), velocity);
   return motion + advance_of_inner_flow(at_nodes, shear, velocity);
