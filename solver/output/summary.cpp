@@ -190,9 +190,8 @@ Summary read_summary(const std::filesystem::path &directory) {
         summary.folds.push_back(place_of(fold));
       if (json->contains("fold_curve_end")) {
         const Json &end = json->at("fold_curve_end");
-        summary.fold_along = text("fold_along");
-        summary.fold_along_value = end.at(summary.fold_along);
-        summary.end_of_fold_curve = place_of(end);
+        const std::string second = text("fold_along");
+        summary.end_of_fold_curve = {second, end.at(second), place_of(end)};
       }
     }
     for (const auto &[name, value] : json->items())

@@ -19,6 +19,12 @@ struct FoldPlace {
   double value = 0, stretch = 0;
   std::optional<double> error = {};
 };
+// Where the last fold of a branch has been followed to: the second key, its value, and the fold there.
+struct EndOfFoldCurve {
+  std::string along;
+  double value = 0;
+  FoldPlace fold;
+};
 // Read back. Quantities that do not apply are absent.
 struct Summary {
   std::string status;
@@ -28,9 +34,7 @@ struct Summary {
   std::map<std::string, double> error_estimate;
   std::string along = {}; // of a branch: the key that varies
   std::vector<FoldPlace> folds = {};
-  std::string fold_along = {}; // the key along which the last of them is followed, and where that has led
-  double fold_along_value = 0;
-  std::optional<FoldPlace> end_of_fold_curve = {};
+  std::optional<EndOfFoldCurve> end_of_fold_curve = {};
 
   // The failure, unless it is what the status says.
   std::string reason() const { return failure == status ? "" : failure; }

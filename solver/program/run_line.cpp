@@ -87,8 +87,8 @@ std::string run_line(const RunResult &result, const std::string &name, bool comp
     text += fmt::format("  fold at {} {}, stretch {:.3g}", summary.along, number_with_error(value, error),
                         stretch);
   if (const auto &end = summary.end_of_fold_curve)
-    text += fmt::format("  at {} = {:.6g} the last one at {}, stretch {:.3g}", summary.fold_along,
-                        summary.fold_along_value, number_with_error(end->value, end->error), end->stretch);
+    text += fmt::format("  at {} = {:.6g} the last one at {}, stretch {:.3g}", end->along, end->value,
+                        number_with_error(end->fold.value, end->fold.error), end->fold.stretch);
   for (const auto &[label, quantity] : told_quantities(result))
     add(label, quantity);
   if (!summary.along.empty() && summary.folds.empty() && summary.failure.empty())
