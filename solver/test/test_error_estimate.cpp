@@ -26,6 +26,27 @@ Series pulse() {
   return series;
 }
 
+Series resistance_pulse() {
+  Series series = pulse();
+  for (SeriesRow &row : series)
+    row.resistance = row.pressure_drop;
+  return series;
+}
+
+Case transit_with_resistance() {
+  Case physics;
+  physics.pore.shape = PoreShape::two_mouths;
+  physics.output.resistance = true;
+  return physics;
+}
+
+// No row at the place of one of the other march.
+Series at_other_places(Series series) {
+  for (SeriesRow &row : series)
+    row.x_g += 1e-5;
+  return series;
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(error_estimate)
@@ -120,13 +141,9 @@ BOOST_AUTO_TEST_CASE(largest_values_err_as_their_rows_do) {
 
 // The tops of both pulses agree, rows beside them do not.
 BOOST_AUTO_TEST_CASE(pulses_whose_tops_agree_by_accident) {
-  Case physics;
-  physics.pore.shape = PoreShape::two_mouths;
-  physics.output.resistance = true;
+  Case physics = transit_with_resistance();
   physics.until.x_g = 2;
-  Series fine = pulse();
-  for (SeriesRow &row : fine)
-    row.resistance = row.pressure_drop;
+  const Series fine = resistance_pulse();
   Series coarse = fine;
   for (SeriesRow &row : coarse)
     if (std::abs(row.x_g - top) > 0.2)
@@ -155,27 +172,17 @@ BOOST_AUTO_TEST_CASE(delays_do_not_cancel_in_the_time_of_a_transit) {
 // Two marches that burst before they come to a common place.
 BOOST_AUTO_TEST_CASE(without_rows_at_the_same_place_there_are_no_estimates) {
   const Series fine = pulse();
-  Series coarse = fine;
-  for (SeriesRow &row : coarse)
-    row.x_g += 1e-5;
-  BOOST_TEST(estimate_errors(fine, coarse, true, Scheme::bdf).empty());
+  BOOST_TEST(estimate_errors(fine, at_other_places(fine), true, Scheme::bdf).empty());
 }
 
 // Tops without rows around them say nothing; the times of a transit are the marches' own.
 BOOST_AUTO_TEST_CASE(a_pulse_without_rows_at_the_same_place_has_no_estimate) {
-  Case physics;
-  physics.pore.shape = PoreShape::two_mouths;
-  physics.output.resistance = true;
+  Case physics = transit_with_resistance();
   physics.output.transit_from = 0.5;
   physics.output.transit_to = 1.5;
-  Series fine = pulse();
-  for (SeriesRow &row : fine)
-    row.resistance = row.pressure_drop;
-  Series coarse = fine;
-  for (SeriesRow &row : coarse)
-    row.x_g += 1e-5;
+  const Series fine = resistance_pulse();
   std::map<std::string, double> error;
-  add_errors_of_transit(physics, fine, coarse, error);
+  add_errors_of_transit(physics, fine, at_other_places(fine), error);
   BOOST_TEST(!error.contains("transit_pulse_height"));
   BOOST_TEST(error.contains("transit_time"));
 }
