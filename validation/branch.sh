@@ -62,6 +62,7 @@ ends 0 steady case.toml --out below --set $key="$(awk -v f="$fold" 'BEGIN { prin
 # The fold followed to a stiffer membrane ends at the fold of that one's own branch.
 stiffer=membrane.bending_ratio
 ends 0 branch case.toml --along $key --to 0.3 --fold-along $stiffer --fold-to 0.02 --out curve
+said=$(sed -n "s/.* at $stiffer = 0.02 the last one at \([0-9.]*\) +- .*/\1/p" log)
 ends 0 branch case.toml --set $stiffer=0.02 --along $key --to 0.3 --out stiffer
 cmp folded/branch.csv curve/branch.csv || fail 'a branch whose fold is followed is another one'
 [ "$(head -n 1 curve/fold_curve.csv | cut -d, -f1,2)" = $stiffer,$key ] || fail 'the columns of the fold'
@@ -71,8 +72,6 @@ near "$(awk -F, 'END { print $2 }' curve/fold_curve.csv)" "$(of stiffer $key)" 1
 sed -n '/"fold_curve_end"/,/^  }/p' curve/summary.json >last
 near "$(sed -n "s/^    \"$key\": \([^,]*\),*/\1/p" last)" "$(of stiffer $key)" 1e-6 'the end of the curve in the summary'
 grep -q "^      \"$key\": [0-9.]*e-" last || fail 'the end of the curve has no error estimate'
-ends 0 branch case.toml --along $key --to 0.3 --fold-along $stiffer --fold-to 0.02 --out curve
-said=$(sed -n "s/.* at $stiffer = 0.02 the last one at \([0-9.]*\) +- .*/\1/p" log)
 near "$said" "$(of stiffer $key)" 1e-5 'the end of the curve on the line'
 near "$(awk -F, 'END { print $NF }' curve/fold_curve.csv)" 0 1e-3 'the growth rate at a fold'
 ends 3 branch case.toml --along $key --to 0.101 --fold-along $stiffer --fold-to 0.02 --out no-curve
